@@ -4,6 +4,9 @@ set(MSC_VO_PUBLIC_HEADERS
   # The odometry
   msc_vo/odometry/odometry.h
   msc_vo/checkpoint/checkpoint_file.h
+  msc_vo/odometry/localization.h
+  msc_vo/map_file/map_reader.h
+  msc_vo/map_file/map_writer.h
   msc_vo/logging/logger.h
   msc_vo/config/options_file.h
   msc_vo/camera/undistorted_camera.h

@@ -25,7 +25,7 @@ LAYERS = [
     ["tracking", "mapping", "logging"],  # the solver below needs no spdlog
     ["odometry", "datasets", "inertial"],
     ["config", "diagnosis", "ros_bag", "openni"],
-    ["recording", "results"],
+    ["recording", "results", "map_file"],
     ["apps"],
 ]
 LAYER_OF = {folder: layer for layer, folders in enumerate(LAYERS) for folder in folders}
@@ -36,6 +36,7 @@ OUTSIDE_HEADERS = [
                    "apps"}),
     (r"(rosbag|ros)/", {"ros_bag"}),
     (r"(OpenNI\.h|openni2/)", {"openni"}),
+    (r"sqlite3\.h$", {"map_file"}),
     (r"spdlog/", {"logging", "apps"}),
     (r"yaml-cpp/", {"config"}),
     (r"nlohmann/", {"report", "recording", "results", "apps"}),
@@ -46,7 +47,7 @@ OUTSIDE_HEADERS = [
     (r"atomic$", {"odometry", "datasets", "apps"}),
     (r"chrono$", {"timing", "odometry", "datasets", "openni", "results", "apps"}),
     (r"(fstream|filesystem)$", {"text", "datasets", "ros_bag", "diagnosis", "config", "recording",
-                                "results", "apps"}),
+                                "results", "map_file", "apps"}),
     (r"httplib", {"apps"}),
     (r"benchmark/", {"apps"}),
     (r"gtest/|gmock/", set()),

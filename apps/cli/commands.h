@@ -47,6 +47,7 @@ Command AddCheckCommand(CLI::App* app);
 Command AddRecordCommand(CLI::App* app);
 Command AddSolveWindowCommand(CLI::App* app);
 Command AddFuseCommand(CLI::App* app);
+Command AddMapCommand(CLI::App* app);
 Command AddGenerateCommand(CLI::App* app);  ///< hidden: manual pages and completion
 
 }  // namespace msc_vo

@@ -83,6 +83,7 @@ CLI::App* AddReplayArguments(CLI::App* app, ReplayArguments* arguments) {
   AddOutputArguments(command, arguments);
   AddShortcuts(command, arguments);
   AddGravityArguments(command, &arguments->gravity);
+  AddMapArguments(command, &arguments->map);
   AddViewArguments(command, &arguments->view);
   AddRunArguments(command, &arguments->run);
   command->add_flag("--no-check", arguments->no_check,

@@ -11,6 +11,7 @@
 #include "apps/cli/configuration_arguments.h"
 #include "apps/cli/gravity_arguments.h"
 #include "apps/cli/replay_views.h"
+#include "apps/cli/run_map.h"
 #include "apps/cli/sequence_arguments.h"
 #include "apps/cli/sequence_run.h"
 
@@ -27,6 +28,7 @@ struct ReplayArguments {
   double checkpoint_interval = 5.0;  ///< seconds
   std::string windows;               ///< folder; empty: windows are not recorded
   GravityArguments gravity;
+  MapArguments map;
   ViewArguments view;
   std::string mode;
   std::string lines;

@@ -98,6 +98,16 @@ std::unique_ptr<Checkpoints> MakeCheckpoints(const RunIdentity& present, const s
   return std::make_unique<Checkpoints>(CheckpointFile(folder), present, interval, parts);
 }
 
+// A run that is resumed remains the same session of its map.
+RunIdentity Identify(const ReplayArguments& arguments, const Configuration& configuration,
+                     const RgbdDecoder& decoder, const Resumed* resumed) {
+  RunIdentity identity = IdentifyRun(decoder, configuration, arguments.gravity, arguments.map);
+  identity.session = resumed != nullptr
+                         ? resumed->identity.session
+                         : NewSessionName(SequenceName(arguments.sequence.directory));
+  return identity;
+}
+
 // Writes and prints the results. `problem`: why a file that was asked for could not be written;
 // empty if there is none. Returns the exit code.
 int WriteResults(const ReplayArguments& arguments, const std::string& output,
@@ -160,10 +170,12 @@ int Run(const ReplayArguments& arguments, const Configuration& configuration, Re
   const InterruptGuard interrupt;
   RunFiles files(output, sequence);
   ReplayViews views(arguments.view, decoder, configuration, arguments.run.max_frames);
+  const RunIdentity identity = Identify(arguments, configuration, decoder, resumed);
+  RunMap map(arguments.map, identity.session, arguments.checkpoint_interval, resumed != nullptr);
   std::unique_ptr<Checkpoints> checkpoints;  // none in real time, which cannot be repeated
   if (!configuration.odometry.snapshots.realtime) {
-    checkpoints = MakeCheckpoints(IdentifyRun(decoder, configuration, arguments.gravity), output,
-                                  arguments.checkpoint_interval, resumed, {&views, gravity.get()});
+    checkpoints = MakeCheckpoints(identity, output, arguments.checkpoint_interval, resumed,
+                                  {&views, gravity.get()});
   }
   files.AddExpendable(CheckpointFolder(output), [&] {
     checkpoints.reset();  // closes its files
@@ -172,8 +184,9 @@ int Run(const ReplayArguments& arguments, const Configuration& configuration, Re
   files.AddExpendable(arguments.view.overlay, [&] { return views.RemoveVideo(); });
   std::string window_problem;
   RunCallbacks callbacks;
+  callbacks.map = &map;
   callbacks.frame = [&](const FrameResult& frame) {
-    files.Add(frame);
+    files.Add(map.Reported(frame));
     views.Add(frame, [&] { return interrupt.IsInterrupted(); });
   };
   callbacks.window = WindowRecorder(arguments.windows, decoder.index(), &window_problem);
@@ -181,7 +194,10 @@ int Run(const ReplayArguments& arguments, const Configuration& configuration, Re
   callbacks.tracking = [&](const TrackedImage& tracked) { views.Show(tracked); };
   callbacks.checkpoints = checkpoints.get();
   if (resumed != nullptr) {
-    callbacks.resume = [&](const std::vector<FrameResult>& frames) { files.Continue(frames); };
+    callbacks.resume = [&](std::vector<FrameResult> frames) {
+      for (FrameResult& frame : frames) frame = map.Reported(frame);
+      files.Continue(frames);
+    };
   }
   SequenceRun run = RunSequence(decoder, configuration, arguments.run, interrupt, callbacks);
   run.context.views = views.TakeViews();

@@ -54,7 +54,7 @@ void AddImages(const SequenceIndex& index, std::map<std::string, std::string>* f
 }  // namespace
 
 RunIdentity IdentifyRun(const RgbdDecoder& decoder, const Configuration& configuration,
-                        const GravityArguments& gravity) {
+                        const GravityArguments& gravity, const MapArguments& map) {
   RunIdentity identity;
   identity.arguments = CommandArguments();
   identity.command_line = CommandLine();
@@ -69,6 +69,8 @@ RunIdentity IdentifyRun(const RgbdDecoder& decoder, const Configuration& configu
   identity.facts["camera"] = FormatCameraFile(decoder.calibration(), "camera");
   identity.facts["--gravity"] =
       gravity.enabled ? gravity.axes + " " + FormatNumber(gravity.sigma) : "off";
+  identity.facts["--map"] = map.map;
+  identity.facts["--localize"] = map.localize;
   return identity;
 }
 

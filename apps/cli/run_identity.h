@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/cli/gravity_arguments.h"
+#include "apps/cli/run_map.h"
 #include "msc_vo/config/option_list.h"
 #include "msc_vo/datasets/rgbd_decoder.h"
 
@@ -19,19 +20,20 @@ struct RunIdentity {
   std::string command_line;            ///< the same as typed
   std::string folder;                  ///< in which it was typed
   std::string program;                 ///< version and checksum of the program
+  std::string session;                 ///< name of the session in a map (NewSessionName())
   /// Everything else that determines the results, by name: options, camera, images.
   std::map<std::string, std::string> facts;
 
   template <typename Archive>
   void Serialize(Archive& archive) {
-    archive.Fields(*this, arguments, command_line, folder, program, facts);
+    archive.Fields(*this, arguments, command_line, folder, program, session, facts);
   }
 };
 
 /// The identity of a run of this program. The number of threads is not part of it: it does not
 /// affect the results.
 RunIdentity IdentifyRun(const RgbdDecoder& decoder, const Configuration& configuration,
-                        const GravityArguments& gravity);
+                        const GravityArguments& gravity, const MapArguments& map);
 
 /// Describes what makes the run `present` another one than `saved`, and what to do about it; empty
 /// if they are the same.

@@ -17,6 +17,7 @@
 #include "apps/cli/image_feed.h"
 #include "apps/cli/progress.h"
 #include "msc_vo/logging/logger.h"
+#include "msc_vo/odometry/localization.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
 
@@ -81,6 +82,7 @@ void RunLoop(const RunArguments& arguments, int num_frames, const InterruptGuard
       if (callbacks.checkpoints != nullptr) {
         callbacks.checkpoints->SaveIfDue(odometry, cost, loop->progress());
       }
+      if (callbacks.map != nullptr) callbacks.map->SaveIfDue(odometry);
     }
   } catch (const std::exception& error) {
     Fail(kExitError, error.what(), run);
@@ -104,6 +106,52 @@ void FinishOdometry(Odometry* odometry, SequenceRun* run) {
     Fail(kExitError, error.what(), run);
     run->result = odometry->Finish();
     run->map = odometry->Map();
+  }
+}
+
+// Saves the map for the last time.
+void SaveMap(RunMap* map, Odometry* odometry, SequenceRun* run) {
+  try {
+    map->Save(odometry);
+  } catch (const std::exception& error) {
+    Fail(kExitError, error.what(), run);
+  }
+}
+
+// Number of images from frame `first` on that were processed.
+int NumProcessedFrom(int first, const OdometryResult& result) {
+  return static_cast<int>(
+      std::count_if(result.frames.begin() + first, result.frames.end(),
+                    [](const FrameResult& frame) { return HasImage(frame.status); }));
+}
+
+// What counts as a failure of tracking, in the map of a run that only localises.
+void CheckLocalization(const std::string& map, const std::optional<int>& first, SequenceRun* run) {
+  if (!first) {
+    Fail(kExitTrackingFailed,
+         "never found in the map " + map +
+             "; record the same place, or extend the map by this sequence with --map",
+         run);
+  } else if (run->summary.num_estimated <
+             kMinTrackedRatio * NumProcessedFrom(*first, run->result)) {
+    Fail(kExitTrackingFailed, DescribeFailure(run->summary), run);
+  }
+}
+
+// Summarises the result, and decides whether tracking has failed.
+void SummarizeRun(const RunMap* map, SequenceRun* run) {
+  const bool localizes = map != nullptr && map->localizes();
+  std::optional<int> first;
+  if (localizes) {
+    first = FirstLocalizedFrame(run->result);
+    KeepLocalizedPoses(&run->result);
+  }
+  run->summary = Summarize(run->result);
+  if (run->exit_code != kExitSuccess) return;
+  if (localizes) {
+    CheckLocalization(map->localize(), first, run);
+  } else if (TrackingFailed(run->summary)) {
+    Fail(kExitTrackingFailed, DescribeFailure(run->summary), run);
   }
 }
 
@@ -165,11 +213,13 @@ SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configu
     }
     callbacks.resume(odometry.frames());
   }
+  if (callbacks.map != nullptr) callbacks.map->Begin(&odometry);
   const std::unique_ptr<ImageFeed> feed =
       MakeImageFeed(decoder, progress.num_images, num_frames, options.snapshots.realtime);
   FrameLoop loop(decoder, num_frames, arguments.strict, feed.get(), &odometry, progress);
   RunLoop(arguments, num_frames, interrupt, callbacks, cost, &odometry, &loop, &run);
   FinishOdometry(&odometry, &run);
+  if (callbacks.map != nullptr) SaveMap(callbacks.map, &odometry, &run);
   context.cost = cost.Read();
   context.realtime = feed->Realtime();
   if (context.realtime) context.realtime->num_late_maps = run.result.num_late_maps;
@@ -178,10 +228,7 @@ SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configu
                             feed->num_dropped_by_camera()));
   }
   context.first_unreadable = loop.progress().first_unreadable;
-  run.summary = Summarize(run.result);
-  if (run.exit_code == kExitSuccess && TrackingFailed(run.summary)) {
-    Fail(kExitTrackingFailed, DescribeFailure(run.summary), &run);
-  }
+  SummarizeRun(callbacks.map, &run);
   if (!context.sequence.ground_truth.empty() && loop.progress().num_images > 0) {
     const std::vector<TimedPose> poses = TrajectoryOf(run.result);
     context.error = EvaluateTrajectory(context.sequence.ground_truth, poses);

@@ -10,6 +10,7 @@
 #include "apps/cli/checkpoints.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/interrupt_guard.h"
+#include "apps/cli/run_map.h"
 #include "msc_vo/datasets/rgbd_decoder.h"
 #include "msc_vo/odometry/odometry.h"
 #include "msc_vo/results/run_summary.h"
@@ -54,6 +55,7 @@ struct RunCallbacks {
   /// Called before the first image of a run that is resumed with its frames so far; if it is empty,
   /// no run is resumed.
   std::function<void(const std::vector<FrameResult>&)> resume = {};
+  RunMap* map = nullptr;  ///< null: the run begins without a map, which is not saved
 };
 
 /// Runs the odometry on a sequence. Prints progress and a warning about unreadable images to

@@ -22,6 +22,8 @@
 #include "apps/python/option_table.h"
 #include "apps/python/shared_object.h"
 #include "apps/python/tracked_image.h"
+#include "msc_vo/map_file/map_reader.h"
+#include "msc_vo/map_file/map_writer.h"
 #include "msc_vo/sensor/byte_order.h"
 
 namespace msc_vo {
@@ -95,6 +97,17 @@ class PyOdometry {
       checkpoint_.Restore(path, odometry_.get());
       is_usable_ = true;
     });
+  }
+
+  void ReadMap(const py::object& file) {
+    const std::string path = PathArgument(file);
+    Alone([&] { odometry_->SetMap(LoadMap(path)); });
+  }
+
+  void WriteMap(const py::object& file, const std::string& session) {
+    const std::string path = PathArgument(file);
+    auto maps = Alone([&] { return odometry_->ShareMaps(session); });
+    if (maps) SaveMap(path, std::move(*maps));
   }
 
   void SetTrackingObserver(const py::object& callback) {
@@ -310,13 +323,34 @@ void BindContexts(py::module_* module) {
           "in.");
 }
 
+// Maps and checkpoints in files.
+void BindStorage(py::class_<PyOdometry>* odometry) {
+  (*odometry)
+      .def("load_map", &PyOdometry::ReadMap, py::arg("file"),
+           "Begins with the map of earlier sessions. ValueError after the first image.")
+      .def("save_map", &PyOdometry::WriteMap, py::arg("file"), py::arg("session") = "",
+           "Waits for local mapping and replaces a file by the map of this and earlier sessions.")
+      .def(
+          "save", &PyOdometry::Save, py::arg("folder"),
+          "Waits for local mapping and writes a checkpoint of the run, which replaces an earlier "
+          "one in the folder. An Odometry that restores it continues with the same results, bit by "
+          "bit. Callbacks are not part of it.")
+      .def("restore", &PyOdometry::Restore, py::arg("folder"),
+           "Continues the run of a checkpoint, before the first image, with the same options (but "
+           "threads and external_mapping), camera and lens: ValueError on others, RuntimeError on "
+           "files that are missing "
+           "or damaged. After an error, only another Odometry can be used.");
+}
+
 }  // namespace
 
 void BindOdometry(py::module_* module) {
   BindContexts(module);
-  py::class_<PyOdometry>(*module, "Odometry",
-                         "RGB-D visual odometry. process() every image, then finish(). The same "
-                         "images give the same poses, bit by bit. The GIL is released meanwhile.")
+  py::class_<PyOdometry> odometry(
+      *module, "Odometry",
+      "RGB-D visual odometry. process() every image, then finish(). The same images give the same "
+      "poses, bit by bit. The GIL is released meanwhile.");
+  odometry
       .def(py::init<const OptionsTable*, const PinholeCamera&, const py::object&>(),
            py::arg("options"), py::arg("camera"), py::arg("distortion") = py::none(),
            "options: None for the defaults. distortion: k1 k2 p1 p2 [k3] in OpenCV's order, or a "
@@ -359,17 +393,8 @@ void BindOdometry(py::module_* module) {
            "callback(TrackedImage) is called with every frame that process() has tracked, for "
            "display. ValueError after the first image.")
       .def("map", &PyOdometry::CopyOfMap,
-           "Waits for local mapping and returns a copy of the present Map.")
-      .def(
-          "save", &PyOdometry::Save, py::arg("folder"),
-          "Waits for local mapping and writes a checkpoint of the run, which replaces an earlier "
-          "one in the folder. An Odometry that restores it continues with the same results, bit by "
-          "bit. Callbacks are not part of it.")
-      .def("restore", &PyOdometry::Restore, py::arg("folder"),
-           "Continues the run of a checkpoint, before the first image, with the same options (but "
-           "threads and external_mapping), camera and lens: ValueError on others, RuntimeError on "
-           "files that are missing "
-           "or damaged. After an error, only another Odometry can be used.");
+           "Waits for local mapping and returns a copy of the present Map.");
+  BindStorage(&odometry);
 }
 
 }  // namespace msc_vo

@@ -12,6 +12,7 @@
 #include "apps/python/arrays.h"
 #include "apps/python/bindings.h"
 #include "msc_vo/datasets/trajectory.h"
+#include "msc_vo/odometry/localization.h"
 #include "msc_vo/results/run_summary.h"
 #include "msc_vo/text/format_text.h"
 
@@ -121,6 +122,7 @@ py::list SegmentsOf(const OdometryResult& result) {
     entry["last_frame"] = segment.last_frame;
     entry["num_estimated"] = segment.num_estimated;
     entry["world"] = segment.world;
+    entry["is_earlier_session"] = segment.is_earlier_session;
     segments.append(entry);
   }
   return segments;
@@ -215,7 +217,11 @@ void BindResult(py::module_* module) {
       .def_property_readonly("segment", &SegmentOf,
                              "(N,) number of the segment that each frame belongs to; -1: none.")
       .def_property_readonly("segments", &SegmentsOf,
-                             "One dict per segment: first_frame, last_frame, num_estimated, world.")
+                             "One dict per segment: first_frame, last_frame, num_estimated, world, "
+                             "is_earlier_session.")
+      .def_property_readonly("first_localized_frame", &FirstLocalizedFrame,
+                             "Index of the first frame whose pose is in the world of a map that "
+                             "was loaded; None if there is none.")
       .def_property_readonly("estimated", &EstimatedOf,
                              "(N,) bool: whether the pose is estimated from the image of its time.")
       .def_property_readonly(

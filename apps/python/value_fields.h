@@ -62,8 +62,8 @@ void FieldsOf(Archive& archive, SegmentJoin& value) {
 
 template <typename Archive>
 void FieldsOf(Archive& archive, Segment& value) {
-  auto& [first_frame, last_frame, num_estimated, world, join] = value;
-  AllFieldsOf(archive, first_frame, last_frame, num_estimated, world, join);
+  auto& [first_frame, last_frame, num_estimated, world, join, is_earlier_session] = value;
+  AllFieldsOf(archive, first_frame, last_frame, num_estimated, world, join, is_earlier_session);
 }
 
 template <typename Archive>

@@ -3,6 +3,9 @@
 
 #include "msc_vo/frame/frame_intrinsics.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace msc_vo {
 
 namespace {
@@ -12,6 +15,35 @@ void RemoveDepths(Frame* frame) {
     for (auto& feature : features) feature.RemoveDepth();
   });
   frame->depth_ranges = {};
+}
+
+bool AreEqual(const PinholeCamera& a, const PinholeCamera& b) {
+  return a.fx == b.fx && a.fy == b.fy && a.cx == b.cx && a.cy == b.cy && a.width == b.width &&
+         a.height == b.height;
+}
+
+// The ranges of the cells that the centres of the cells of the other camera show.
+DepthRanges ChangeCamera(const DepthRanges& ranges, const PinholeCamera& from,
+                         const PinholeCamera& to) {
+  DepthRanges changed;
+  if (ranges.cells.empty()) return changed;
+  for (int row = 0; row < DepthRanges::kRows; ++row) {
+    for (int column = 0; column < DepthRanges::kColumns; ++column) {
+      const Eigen::Vector2d pixel = from.Project(to.Ray(DepthRanges::CellCenter(to, column, row)));
+      changed.cells.push_back(from.IsInside(pixel) ? ranges.cells[DepthRanges::CellOf(from, pixel)]
+                                                   : DepthRanges::Cell());
+    }
+  }
+  return changed;
+}
+
+// The same lens, with the undistorted image of another camera.
+std::shared_ptr<const CameraIntrinsics> ChangeCamera(const CameraIntrinsics& intrinsics,
+                                                     const PinholeCamera& camera) {
+  CameraIntrinsics changed = intrinsics;
+  changed.distortion.recorded = intrinsics.distortion.Recorded(intrinsics.camera);
+  changed.camera = camera;
+  return std::make_shared<const CameraIntrinsics>(changed);
 }
 
 }  // namespace
@@ -34,6 +66,32 @@ std::shared_ptr<const Frame> ChangeIntrinsics(
   });
   moved->grid = FeatureGrid(moved->camera, moved->points);
   return moved;
+}
+
+std::shared_ptr<const Frame> ChangeCamera(const std::shared_ptr<const Frame>& frame,
+                                          const PinholeCamera& camera) {
+  const PinholeCamera& from = frame->camera;
+  if (AreEqual(from, camera)) return frame;
+  const auto changed = std::make_shared<Frame>(*frame);
+  const double scale = camera.FocalLength() / from.FocalLength();
+  ForEachFeatures(*changed, [&](auto& features) {
+    for (auto& feature : features) {
+      feature.MovePixels([&](const Eigen::Vector2d& pixel, double* /*inverse_depth*/) {
+        return camera.Project(from.Ray(pixel));
+      });
+      feature.sigma *= scale;
+    }
+  });
+  const int levels = static_cast<int>(std::lround(std::log(scale) / std::log(kPyramidScale)));
+  for (PointFeature& point : changed->points) point.level = std::max(0, point.level + levels);
+  changed->camera = camera;
+  if (frame->intrinsics) changed->intrinsics = ChangeCamera(*frame->intrinsics, camera);
+  changed->grid = FeatureGrid(camera, changed->points);
+  changed->depth_ranges = ChangeCamera(frame->depth_ranges, from, camera);
+  changed->lens.reset();
+  changed->velocity.reset();
+  changed->readout_time = 0.0;
+  return changed;
 }
 
 }  // namespace msc_vo

@@ -21,4 +21,10 @@ namespace msc_vo {
 std::shared_ptr<const Frame> ChangeIntrinsics(
     std::shared_ptr<const Frame> frame, const std::shared_ptr<const CameraIntrinsics>& intrinsics);
 
+/// Returns the frame as another camera would have recorded it from the same place: its features on
+/// the same viewing rays, with the pyramid level and the pixel sigma of its focal length. Returns
+/// the frame itself if it has this camera. Its rolling-shutter compensation becomes final.
+std::shared_ptr<const Frame> ChangeCamera(const std::shared_ptr<const Frame>& frame,
+                                          const PinholeCamera& camera);
+
 }  // namespace msc_vo

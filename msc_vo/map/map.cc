@@ -45,6 +45,7 @@ Map Map::Share() {
   map.relative_poses_ = relative_poses_.Share();
   map.next_keyframe_ = next_keyframe_;
   map.next_landmark_ = next_landmark_;
+  map.session_begin_ = session_begin_;
   return map;
 }
 
@@ -52,7 +53,13 @@ Map Map::Next() const {
   Map map;
   map.next_keyframe_ = next_keyframe_;
   map.next_landmark_ = next_landmark_;
+  map.session_begin_ = session_begin_;
   return map;
+}
+
+void Map::ContinueIds(KeyframeId next_keyframe, LandmarkId next_landmark) {
+  next_keyframe_ = std::max(next_keyframe_, next_keyframe);
+  next_landmark_ = std::max(next_landmark_, next_landmark);
 }
 
 void Map::Merge(const Map& other) {
@@ -64,6 +71,7 @@ void Map::Merge(const Map& other) {
   relative_poses_.Merge(other.relative_poses_);
   next_keyframe_ = std::max(next_keyframe_, other.next_keyframe_);
   next_landmark_ = std::max(next_landmark_, other.next_landmark_);
+  session_begin_ = std::max(session_begin_, other.session_begin_);
 }
 
 void Map::Transform(const Rigid3& new_from_old_world) {

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -41,6 +42,15 @@ class Map {
   Map Share();
   /// Returns an empty map whose ids continue those of this map, so that the ids of both differ.
   Map Next() const;
+  /// The ids of the next keyframe and of the next landmark.
+  KeyframeId next_keyframe() const { return next_keyframe_; }
+  LandmarkId next_landmark() const { return next_landmark_; }
+  /// Lets the next ids be at least these, so that ids of other maps are not used again.
+  void ContinueIds(KeyframeId next_keyframe, LandmarkId next_landmark);
+  /// Declares all present keyframes to be of earlier sessions. Keyframes to come, also of maps that
+  /// Next() makes, are of the present one. Time stamps of different sessions cannot be compared.
+  void BeginSession() { session_begin_ = next_keyframe_; }
+  bool IsOfEarlierSession(KeyframeId id) const { return id < session_begin_; }
   /// Adds the keyframes and landmarks of `other`, which must be in the same world and have ids that
   /// differ from those of this map.
   void Merge(const Map& other);
@@ -70,6 +80,12 @@ class Map {
   /// Adds a landmark (metres, world) and its observation by feature `feature` of `keyframe`.
   template <typename L>
   LandmarkId Add(KeyframeId keyframe, int feature, const typename L::Geometry& geometry);
+
+  /// Adds a landmark with its id, which must be higher than those of its kind so far, and its
+  /// observations, which must be at least one, in order of keyframes, by features that observe no
+  /// other landmark. What Refresh() computes is left to that.
+  template <typename L>
+  void AddExisting(L landmark);
 
   /// Adds an observation. Returns false and changes nothing if the landmark does not exist, is
   /// already observed by this keyframe, or the feature observes another landmark.
@@ -126,9 +142,9 @@ class Map {
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [keyframes, landmarks, relative_poses, next_keyframe, next_landmark] =
+    auto& [keyframes, landmarks, relative_poses, next_keyframe, next_landmark, session_begin] =
         *this;  // all members, or it does not compile
-    archive(keyframes, landmarks, relative_poses, next_keyframe, next_landmark);
+    archive(keyframes, landmarks, relative_poses, next_keyframe, next_landmark, session_begin);
   }
 
  private:
@@ -158,6 +174,7 @@ class Map {
   SharedTable<RelativePose, 16> relative_poses_;  // of all keyframes ever added
   KeyframeId next_keyframe_ = 0;
   LandmarkId next_landmark_ = 0;
+  KeyframeId session_begin_ = 0;
 };
 
 template <typename L>
@@ -171,6 +188,18 @@ LandmarkId Map::Add(KeyframeId keyframe, int feature, const typename L::Geometry
   Observe<L>(id, keyframe, feature);
   Refresh<L>(id);
   return id;
+}
+
+template <typename L>
+void Map::AddExisting(L landmark) {
+  const LandmarkId id = landmark.id;
+  for (const Observation& observation : landmark.observations) {
+    Keyframe* const keyframe = keyframes_.FindToChange(observation.keyframe);
+    keyframe->landmarks.Of<L>()[observation.feature] = id;
+  }
+  next_landmark_ = std::max(next_landmark_, id + 1);
+  landmark.descriptor_is_current = false;
+  Table<L>().Append(id, std::move(landmark));
 }
 
 template <typename L>

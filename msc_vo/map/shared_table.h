@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <iterator>
 #include <memory>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -146,6 +147,25 @@ class SharedTable {
     SharedTable copy;
     copy.blocks_ = blocks_;
     return copy;
+  }
+
+  /// Calls changed(entry) for each entry that may differ from that of `before`, ascending: those in
+  /// blocks that the tables do not share; and erased(id) for each id of `before` that is missing.
+  template <typename Changed, typename Erased>
+  void VisitChanges(const SharedTable& before, const Changed& changed, const Erased& erased) const {
+    std::set<const Entries*> own, old;
+    for (const Block& block : blocks_) own.insert(block.entries.get());
+    for (const Block& block : before.blocks_) old.insert(block.entries.get());
+    for (const Block& block : blocks_) {
+      if (old.count(block.entries.get()) > 0) continue;
+      for (const Entry& entry : *block.entries) changed(entry);
+    }
+    for (const Block& block : before.blocks_) {
+      if (own.count(block.entries.get()) > 0) continue;
+      for (const Entry& entry : *block.entries) {
+        if (Find(entry.first) == nullptr) erased(entry.first);
+      }
+    }
   }
 
   /// Lists the state for a checkpoint. Its blocks count as shared afterwards.

@@ -63,6 +63,7 @@ void AddPredecessors(const Map& map, std::set<KeyframeId>* window) {
   for (const KeyframeId id : std::set<KeyframeId>(*window)) {
     const auto* before = map.keyframes().FindUpTo(id - 1);
     if (before == nullptr || window->count(before->first) > 0) continue;
+    if (map.IsOfEarlierSession(before->first)) continue;  // no factor of this run links it
     if (NumShared(map, id, before->first) < kMinShared) window->insert(before->first);
   }
 }
@@ -214,6 +215,14 @@ WindowData SelectWindow(const WindowSelectionOptions& options, const Map& map, K
 WindowData SelectWholeMap(const WindowSelectionOptions& options, const Map& map) {
   std::set<KeyframeId> window;
   for (const auto& [id, keyframe] : map.keyframes()) window.insert(id);
+  return MakeWindow(options, map, window, map.keyframes().back().second.frame->camera);
+}
+
+WindowData SelectSession(const WindowSelectionOptions& options, const Map& map) {
+  std::set<KeyframeId> window;
+  for (const auto& [id, keyframe] : map.keyframes()) {
+    if (!map.IsOfEarlierSession(id)) window.insert(id);
+  }
   return MakeWindow(options, map, window, map.keyframes().back().second.frame->camera);
 }
 

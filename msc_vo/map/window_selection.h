@@ -40,6 +40,9 @@ WindowData SelectWindow(const WindowSelectionOptions& options, const Map& map, K
 
 /// Selects all keyframes of a map that is not empty.
 WindowData SelectWholeMap(const WindowSelectionOptions& options, const Map& map);
+/// Selects the keyframes of the present session, at least one. Those of earlier ones are fixed, or
+/// left out.
+WindowData SelectSession(const WindowSelectionOptions& options, const Map& map);
 
 /// Writes the optimised window back into the map. Landmarks that one keyframe alone observes, which
 /// the window need not have, move with it. Removes rejected observations and lines shorter than 1

@@ -14,6 +14,10 @@ std::shared_ptr<const Map> Share(SubMap* submap) {
   return std::make_shared<const Map>(submap->map.Share());
 }
 
+SavedSubMap ToSave(SubMap* submap) {
+  return {submap->id, submap->map.Share(), submap->axes.Estimate(), submap->noise.scale()};
+}
+
 }  // namespace
 
 Atlas::Atlas(const SceneAxesOptions& axes, const NoiseEstimatorOptions& noise)
@@ -23,6 +27,31 @@ Atlas::Atlas(const SceneAxesOptions& axes, const NoiseEstimatorOptions& noise)
 
 SubMap Atlas::MakeEmpty() const {
   return {kNoSubMap, {}, SceneAxes(axes_), NoiseEstimator(noise_)};
+}
+
+void Atlas::BeginWith(std::vector<SavedSubMap> submaps) {
+  for (SavedSubMap& saved : submaps) {
+    SubMap submap = MakeEmpty();
+    submap.id = static_cast<SubMapId>(inactive_.size());
+    submap.map = std::move(saved.map);
+    submap.map.BeginSession();
+    if (saved.axes) submap.axes.Restore(*saved.axes);
+    current_.map.ContinueIds(submap.map.next_keyframe(), submap.map.next_landmark());
+    inactive_.push_back(std::move(submap));
+    inactive_maps_.push_back(Share(&inactive_.back()));
+  }
+  current_.map.BeginSession();
+  current_.id = static_cast<SubMapId>(inactive_.size());
+  next_id_ = current_.id + 1;
+}
+
+std::vector<SavedSubMap> Atlas::ShareSubMaps() {
+  std::vector<SavedSubMap> submaps;
+  for (SubMap& submap : inactive_) submaps.push_back(ToSave(&submap));
+  if (!current_.map.keyframes().empty()) submaps.push_back(ToSave(&current_));
+  std::sort(submaps.begin(), submaps.end(),
+            [](const SavedSubMap& a, const SavedSubMap& b) { return a.id < b.id; });
+  return submaps;
 }
 
 void Atlas::Begin(bool keep_current) {

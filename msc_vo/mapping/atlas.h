@@ -8,6 +8,7 @@
 
 #include "msc_vo/geometry/rigid3.h"
 #include "msc_vo/map/inactive_maps.h"
+#include "msc_vo/map/map_contents.h"
 #include "msc_vo/mapping/submap.h"
 
 namespace msc_vo {
@@ -26,6 +27,12 @@ class Atlas {
   SubMap& current() { return current_; }
   /// The maps of the other submaps, in the order in which they became inactive.
   const InactiveMaps& inactive_maps() const { return inactive_maps_; }
+
+  /// Begins with the submaps of earlier sessions, by ascending id, as inactive ones. They have the
+  /// ids 0, 1, ..., and the current one the next id. Call it before the first keyframe.
+  void BeginWith(std::vector<SavedSubMap> submaps);
+  /// All submaps that are not empty, by ascending id. They share memory with the atlas.
+  std::vector<SavedSubMap> ShareSubMaps();
 
   /// Begins a submap. The current one becomes inactive, or is discarded unless `keep_current`: the
   /// new one then has its id. The noise, which is that of the sensor, is continued.

@@ -43,7 +43,8 @@ bool MapCalibration::UpdateIntrinsics(const KeyframePacket& packet, const Map& m
 
 void MapCalibration::ChangeMap(Map* map) const {
   ChangeKeyframeIntrinsics(
-      [this](KeyframeId id, const std::shared_ptr<const Frame>& frame) {
+      [this, map](KeyframeId id, const std::shared_ptr<const Frame>& frame) {
+        if (map->IsOfEarlierSession(id)) return ChangeCamera(frame, intrinsics_->present()->camera);
         return WithPresentIntrinsics(frame, intrinsics_->FindImage(id).get());
       },
       map);

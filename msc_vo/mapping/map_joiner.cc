@@ -43,6 +43,7 @@ void MapJoiner::Add(KeyframeId keyframe, const PoseCovariance& covariance,
 void MapJoiner::AppendPoses(const Map& map, const Rigid3& map_from_world,
                             std::vector<PoseInMap>* poses) const {
   for (const auto& [id, keyframe] : map.keyframes()) {
+    if (map.IsOfEarlierSession(id)) continue;
     poses->push_back(
         {keyframe.frame->timestamp, keyframe.cam_from_world * map_from_world, &map, false});
   }

@@ -82,9 +82,11 @@ class MapJoiner {
     bool is_last = false;
   };
 
+  // Appends those of this session.
   void AppendPoses(const Map& map, const Rigid3& map_from_world,
                    std::vector<PoseInMap>* poses) const;
-  // Whether the camera can have moved from one map into the other in the time that it had.
+  // Whether the camera can have moved from one map into the other in the time that it had. Nothing
+  // is known of the time between sessions.
   bool IsPossibleMotion(const Map& a, const Map& b, const Rigid3& a_from_b) const;
   // Forgets those of `keyframes` that are marked.
   void Forget(const std::vector<CommonKeyframe>& keyframes, const std::vector<bool>& forgotten);

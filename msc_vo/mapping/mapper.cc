@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "msc_vo/map/map_validation.h"
+#include "msc_vo/self_calibration/keyframe_intrinsics.h"
 #include "msc_vo/self_calibration/keyframe_rolling_shutter.h"
 #include "msc_vo/structure/keyframe_structure.h"
 #include "msc_vo/timing/stopwatch.h"
@@ -36,6 +37,11 @@ Mapper::Mapper(const MapperOptions& options)
       calibration_(options.readout_time),
       care_(options.culling, options.fusion),
       optimizer_(options) {}
+
+void Mapper::BeginWith(std::vector<SavedSubMap> submaps, const PinholeCamera& camera) {
+  for (SavedSubMap& submap : submaps) ChangeKeyframeCamera(camera, &submap.map);
+  atlas_.BeginWith(std::move(submaps));
+}
 
 void Mapper::Advance(KeyframeTask* task) {
   const auto next = [task] {
@@ -185,6 +191,11 @@ MapSnapshotPtr Mapper::Snapshot() {
 void Mapper::ApplyCalibration(KeyframeId newest) {
   atlas_.ChangeAll([this](SubMap* submap) {
     calibration_.ChangeMap(&submap->map);
+    // What an earlier session knows is not in question.
+    const bool is_of_earlier_session =
+        !submap->map.keyframes().empty() &&
+        submap->map.IsOfEarlierSession(submap->map.keyframes().back().first);
+    if (is_of_earlier_session) return;
     submap->axes = SceneAxes(options_.axes);
     submap->noise = NoiseEstimator(options_.noise);
   });

@@ -81,6 +81,12 @@ class Mapper {
     calibration_.Begin(given, std::move(measure_depth));
   }
 
+  /// Begins with the submaps of earlier sessions (Atlas::BeginWith()), expressed in the camera of
+  /// the frames to come. Call it before the first keyframe.
+  void BeginWith(std::vector<SavedSubMap> submaps, const PinholeCamera& camera);
+  /// All submaps as they are.
+  std::vector<SavedSubMap> ShareSubMaps() { return atlas_.ShareSubMaps(); }
+
   /// Runs the next slice of the work on a keyframe: a stage, apart from kSolve, which has a slice
   /// for each step of the solver. Work on the next keyframe begins when this one is done; a task
   /// whose slice has thrown is given up.

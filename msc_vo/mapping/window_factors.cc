@@ -82,6 +82,7 @@ WindowContext MakeWindowContext(const Map& map, const WindowData& window,
                                 const std::vector<ExtraBlock>& extra_blocks) {
   WindowContext context;
   for (const WindowData::Keyframe& keyframe : window.keyframes) {
+    if (map.IsOfEarlierSession(keyframe.id)) continue;
     context.keyframes.push_back({keyframe.id, map.FindKeyframe(keyframe.id)->frame->timestamp,
                                  keyframe.cam_from_world, keyframe.fixed});
   }

@@ -61,7 +61,8 @@ struct WindowFactors {
 /// ends the keyframe step.
 using WindowFactorCallback = std::function<WindowFactors(const WindowContext&)>;
 
-/// Describes `window`, whose keyframes are in `map`, and refers to it.
+/// Describes `window`, whose keyframes are in `map`, and refers to it. Keyframes of earlier
+/// sessions are left out: their time stamps mean nothing to the caller.
 WindowContext MakeWindowContext(const Map& map, const WindowData& window,
                                 const std::vector<ExtraBlock>& extra_blocks);
 

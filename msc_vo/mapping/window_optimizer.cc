@@ -48,7 +48,7 @@ void WindowOptimizer::OptimizeMap(KeyframeId keyframe, SubMap* submap) {
   options.first_iterations = kCalibrationIterations;
   options.second_iterations = kCalibrationIterations;
   const std::unique_ptr<WindowTask> task =
-      Begin(options, keyframe, SelectWholeMap(options_.selection, submap->map), submap);
+      Begin(options, keyframe, SelectSession(options_.selection, submap->map), submap);
   if (task == nullptr) return;
   while (task->Advance()) continue;
   WriteResult(*task, submap);

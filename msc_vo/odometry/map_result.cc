@@ -22,6 +22,7 @@ void AddMap(const Mapper& mapper, SubMapId submap_id, OdometryResult* result) {
   if (submap == nullptr) return;
   const Map& map = submap->map;
   for (const auto& [id, keyframe] : map.keyframes()) {
+    if (map.IsOfEarlierSession(id)) continue;
     result->keyframes.push_back({keyframe.frame->timestamp, keyframe.cam_from_world.Inverse()});
   }
   for (const auto& [id, point] : map.points()) {

@@ -267,4 +267,9 @@ std::unique_ptr<MappingRunner> MakeThreadedRunner(Mapper* mapper) {
   return std::make_unique<ThreadedRunner>(mapper);
 }
 
+std::unique_ptr<MappingRunner> MakeRunner(int threads, bool external_mapping, Mapper* mapper) {
+  if (external_mapping) return MakeCalledRunner(mapper);
+  return threads > 1 ? MakeThreadedRunner(mapper) : MakeInlineRunner(mapper);
+}
+
 }  // namespace msc_vo

@@ -62,5 +62,7 @@ std::unique_ptr<MappingRunner> MakeInlineRunner(Mapper* mapper);
 std::unique_ptr<MappingRunner> MakeThreadedRunner(Mapper* mapper);
 /// Works in Run(), and in Take() and Submit() where these would have to wait.
 std::unique_ptr<MappingRunner> MakeCalledRunner(Mapper* mapper);
+/// One of these, as the options of the same names say (OdometryOptions).
+std::unique_ptr<MappingRunner> MakeRunner(int threads, bool external_mapping, Mapper* mapper);
 
 }  // namespace msc_vo

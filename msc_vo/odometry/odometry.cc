@@ -12,7 +12,6 @@
 #include "msc_vo/checkpoint/binary_reader.h"
 #include "msc_vo/checkpoint/binary_writer.h"
 #include "msc_vo/features/image_statistics.h"
-#include "msc_vo/mapping/mapper.h"
 #include "msc_vo/odometry/calibration_exchange.h"
 #include "msc_vo/odometry/event_log.h"
 #include "msc_vo/odometry/first_error.h"
@@ -21,26 +20,15 @@
 #include "msc_vo/odometry/input_checks.h"
 #include "msc_vo/odometry/loss_cause.h"
 #include "msc_vo/odometry/map_result.h"
-#include "msc_vo/odometry/mapping_runner.h"
 #include "msc_vo/odometry/odometry_pose.h"
 #include "msc_vo/odometry/packet_collector.h"
 #include "msc_vo/odometry/pose_correction.h"
 #include "msc_vo/odometry/pose_refiner.h"
-#include "msc_vo/odometry/segment_log.h"
+#include "msc_vo/odometry/session_log.h"
 #include "msc_vo/odometry/snapshot_schedule.h"
 #include "msc_vo/timing/stopwatch.h"
-#include "msc_vo/tracking/tracker.h"
 
 namespace msc_vo {
-
-namespace {
-
-std::unique_ptr<MappingRunner> MakeRunner(const OdometryOptions& options, Mapper* mapper) {
-  if (options.external_mapping) return MakeCalledRunner(mapper);
-  return options.threads > 1 ? MakeThreadedRunner(mapper) : MakeInlineRunner(mapper);
-}
-
-}  // namespace
 
 struct Odometry::State {
   State(const OdometryOptions& options_in, const PinholeCamera& camera,
@@ -51,7 +39,8 @@ struct Odometry::State {
         mapper(options.mapping),
         calibration(options.mapping.self_calibration, &images, &mapper),
         refiner(options.tracking.pose, options.pose_refinement_delay),
-        schedule(options.snapshots, MakeRunner(options, &mapper), mapper.Snapshot(),
+        schedule(options.snapshots, MakeRunner(options.threads, options.external_mapping, &mapper),
+                 mapper.Snapshot(),
                  [this](int frame, const MappingStep& step) { Record(frame, step); }) {
     log.LogStart(options, camera);
   }
@@ -85,7 +74,7 @@ struct Odometry::State {
   template <typename Archive>
   void Serialize(Archive& archive) {
     archive(images, tracker, mapper, calibration, last_window, packets, results, relative_poses,
-            odometry_pose, refiner, segments, log, schedule);
+            odometry_pose, refiner, segments, log, sessions, schedule);
   }
 
   bool has_started = false;  // an image has been given to this object
@@ -103,6 +92,7 @@ struct Odometry::State {
   PoseRefiner refiner;
   SegmentLog segments;
   EventLog log;
+  SessionLog sessions;
   SnapshotSchedule schedule;  // last: it uses the members above
 };
 
@@ -264,6 +254,12 @@ void Odometry::SetTrackingObserver(TrackingObserver observer) {
   state_->tracking_observer = std::move(observer);
 }
 
+void Odometry::SetMap(MapContents earlier) {
+  state_->CheckNotStarted("SetMap");
+  state_->sessions.BeginWith(std::move(earlier), state_->images.intrinsics()->camera,
+                             &state_->tracker, &state_->segments, &state_->mapper);
+}
+
 void Odometry::SkipClippedDepthSearch() {
   state_->CheckNotStarted("SkipClippedDepthSearch");
   state_->images.SkipClippedDepthSearch();
@@ -370,6 +366,11 @@ void Odometry::Restore(BinaryReader* archive) {
 MapSnapshotPtr Odometry::Map() {
   state_->schedule.Drain();
   return state_->mapper.Snapshot();
+}
+
+std::optional<MapContents> Odometry::ShareMaps(const std::string& session) {
+  if (!state_->schedule.WaitForMapper()) return std::nullopt;
+  return state_->sessions.Share(session, &state_->mapper);
 }
 
 OdometryResult Odometry::Finish() {

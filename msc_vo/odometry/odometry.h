@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "msc_vo/bundle_adjustment/custom_factor.h"
@@ -13,6 +14,7 @@
 #include "msc_vo/camera/lens_distortion.h"
 #include "msc_vo/geometry/line_segment.h"
 #include "msc_vo/geometry/timed_pose.h"
+#include "msc_vo/map/map_contents.h"
 #include "msc_vo/map/noise_scale.h"
 #include "msc_vo/map/snapshot.h"
 #include "msc_vo/mapping/window_factors.h"
@@ -64,7 +66,7 @@ struct OdometryResult {
   /// The world (Segment::world) of keyframes, points, lines and axes: the one with most estimated
   /// poses.
   int map_world = 0;
-  std::vector<TimedPose> keyframes;  ///< in order of time
+  std::vector<TimedPose> keyframes;  ///< of this run, in order of time
   std::vector<MapPoint> points;
   std::vector<MapLine> lines;
   MapAxes axes;
@@ -128,6 +130,12 @@ class Odometry {
   /// frame, for display. Its time is not part of StageTimes.
   void SetTrackingObserver(TrackingObserver observer);
 
+  /// Begins with the map of earlier sessions (LoadMap()). The run begins in a world of its own, and
+  /// enters that of the map when enough keyframes have been found in it, as if it were the map of
+  /// an older segment: the submaps of `earlier` are the first segments and worlds of the result.
+  /// The map is expressed in the camera of this run.
+  void SetMap(MapContents earlier);
+
   /// States that depth images contain no clipped values, or 0 instead of them, as those of
   /// RgbdDecoder: by default, the odometry finds out from the images at which depths their driver
   /// clips.
@@ -175,6 +183,11 @@ class Odometry {
 
   /// Waits for the mapper and returns the present map. Throws as Finish() does.
   MapSnapshotPtr Map();
+  /// Waits for the mapper and returns all maps of this run and of earlier sessions, to be saved
+  /// (SaveMap(), MapWriter). They share memory with the odometry, and nothing depends on the call.
+  /// `session`: name of this run. std::nullopt if a keyframe step has failed and its exception is
+  /// not thrown yet.
+  std::optional<MapContents> ShareMaps(const std::string& session);
 
   /// Waits for the mapper and writes the state of the run (checkpoint/checkpoint_file.h). A run
   /// that restores it continues with the same results, bit by bit. Writes nothing and returns false

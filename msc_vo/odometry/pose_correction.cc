@@ -25,12 +25,13 @@ class PoseCorrection {
 
   const Map& before_;
   const Map& after_;
-  std::map<double, Rigid3> corrections_;  // by time stamp of the keyframe
+  std::map<double, Rigid3> corrections_;  // by time stamp of the keyframe of this session
 };
 
 PoseCorrection::PoseCorrection(const Map& before, const Map& after)
     : before_(before), after_(after) {
   for (const auto& [id, keyframe] : after.keyframes()) {
+    if (after.IsOfEarlierSession(id)) continue;
     corrections_[keyframe.frame->timestamp] =
         keyframe.cam_from_world * before.CamFromWorld(id).Inverse();
   }
@@ -43,6 +44,7 @@ Rigid3 PoseCorrection::Correct(double timestamp, KeyframeId reference,
 }
 
 Rigid3 PoseCorrection::At(double timestamp) const {
+  if (corrections_.empty()) return Rigid3();
   const auto next = corrections_.lower_bound(timestamp);
   if (next == corrections_.begin()) return next->second;
   const auto last = std::prev(next);

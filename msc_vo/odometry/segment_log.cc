@@ -44,8 +44,16 @@ void SetWorlds(const std::vector<Segment>& segments, std::vector<FrameResult>* f
   }
 }
 
+void SegmentLog::BeginWith(int num_submaps) {
+  num_earlier_ = static_cast<size_t>(num_submaps);
+  for (SubMapId id = 0; id < num_submaps; ++id) {
+    entries_.emplace_back();
+    entries_.back().first_submap = entries_.back().submap = id;
+  }
+}
+
 void SegmentLog::Begin(int frame, bool replaces_last) {
-  if (replaces_last && !entries_.empty()) entries_.pop_back();
+  if (replaces_last && has_begun()) entries_.pop_back();
   entries_.emplace_back();
   entries_.back().first_frame = frame;
 }
@@ -77,7 +85,7 @@ std::optional<Rigid3> SegmentLog::NewFromOldWorld(int old_world, int new_world) 
 }
 
 SubMapId SegmentLog::SubMapOf(int segment) const {
-  return segment <= current() ? entries_[segment].first_submap : kNoSubMap;
+  return segment < static_cast<int>(entries_.size()) ? entries_[segment].first_submap : kNoSubMap;
 }
 
 int SegmentLog::WorldOf(int segment) const {
@@ -93,14 +101,16 @@ std::vector<Segment> SegmentLog::Segments(const std::vector<FrameResult>& frames
   for (size_t i = 0; i < entries_.size(); ++i) {
     const Entry& entry = entries_[i];
     Segment segment;
+    segment.is_earlier_session = i < num_earlier_;
     segment.first_frame = entry.first_frame;
-    segment.last_frame = i + 1 < entries_.size() ? entries_[i + 1].first_frame - 1
-                                                 : static_cast<int>(frames.size()) - 1;
+    segment.last_frame = segment.is_earlier_session ? -1
+                         : i + 1 < entries_.size()  ? entries_[i + 1].first_frame - 1
+                                                    : static_cast<int>(frames.size()) - 1;
     for (int frame = segment.first_frame; frame <= segment.last_frame; ++frame) {
       segment.num_estimated += IsEstimated(frames[frame].status) ? 1 : 0;
     }
     segment.world = WorldOf(static_cast<int>(i));
-    if (!entry.moves.empty()) {
+    if (!entry.moves.empty() && !segment.is_earlier_session) {
       segment.join = Describe(entry.moves.back().frame, entry.moves.back().join,
                               frames[entry.first_frame].cam_from_world);
     }

@@ -29,6 +29,8 @@ struct Segment {
   /// older one. Poses of different worlds have an unknown transform between them.
   int world = 0;
   std::optional<SegmentJoin> join;  ///< if `world` is another segment
+  /// It stands for a map of earlier sessions (Odometry::SetMap()) and has no frames.
+  bool is_earlier_session = false;
 };
 
 /// The world with most estimated poses, the oldest one on ties; 0 without segments.
@@ -40,6 +42,9 @@ void SetWorlds(const std::vector<Segment>& segments, std::vector<FrameResult>* f
 /// Keeps the segments of a run while frames are tracked and keyframes are mapped.
 class SegmentLog {
  public:
+  /// Begins with the submaps 0, ..., num_submaps - 1 of earlier sessions, as segments without
+  /// frames. Call it before the first segment.
+  void BeginWith(int num_submaps);
   /// Frame `frame` begins a segment. The last segment is discarded if `replaces_last`.
   void Begin(int frame, bool replaces_last);
   /// Reports that frame `frame` became a keyframe of a submap.
@@ -48,7 +53,7 @@ class SegmentLog {
   void RecordJoin(int frame, const MapJoin& join);
 
   /// Number of the current segment; kNoSegment before the first one.
-  int current() const { return static_cast<int>(entries_.size()) - 1; }
+  int current() const { return has_begun() ? static_cast<int>(entries_.size()) - 1 : kNoSegment; }
   /// First frame of the current segment.
   int first_frame() const { return entries_.back().first_frame; }
 
@@ -70,8 +75,8 @@ class SegmentLog {
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [entries] = *this;  // all members, or it does not compile
-    archive(entries);
+    auto& [entries, num_earlier] = *this;  // all members, or it does not compile
+    archive(entries, num_earlier);
   }
 
  private:
@@ -97,9 +102,11 @@ class SegmentLog {
     }
   };
 
+  bool has_begun() const { return entries_.size() > num_earlier_; }
   int WorldOf(int segment) const;
 
   std::vector<Entry> entries_;
+  size_t num_earlier_ = 0;  // the first ones stand for submaps of earlier sessions
 };
 
 }  // namespace msc_vo

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "msc_vo/odometry/localization.h"
 #include "msc_vo/results/report_frame.h"
 #include "msc_vo/text/format_text.h"
 
@@ -118,14 +119,15 @@ std::string DescribeFailure(const RunSummary& summary) {
 }
 
 std::string DescribeSegments(const RunSummary& summary) {
-  const std::vector<Segment>& segments = summary.segments;
+  int num_segments = 0;
   int num_joined = 0;
   int num_in_map = 0;
-  for (const Segment& segment : segments) {
+  for (const Segment& segment : summary.segments) {
+    if (segment.is_earlier_session) continue;
+    ++num_segments;
     num_joined += segment.join ? 1 : 0;
     num_in_map += segment.world == summary.map_world ? 1 : 0;
   }
-  const int num_segments = static_cast<int>(segments.size());
   std::string text =
       FormatText("%d, %d of them joined with an older one", num_segments, num_joined);
   if (num_in_map < num_segments) {
@@ -137,8 +139,9 @@ std::string DescribeSegments(const RunSummary& summary) {
 
 std::vector<TimedPose> TrajectoryOf(const OdometryResult& result) {
   std::vector<TimedPose> poses;
+  const int first_segment = NumEarlierWorlds(result);
   for (const FrameResult& frame : result.frames) {
-    const int segment = frame.segment == kNoSegment ? 0 : frame.segment;
+    const int segment = frame.segment == kNoSegment ? first_segment : frame.segment;
     poses.push_back({frame.timestamp, frame.cam_from_world.Inverse(), IsEstimated(frame.status),
                      segment, WorldOf(result, segment)});
   }

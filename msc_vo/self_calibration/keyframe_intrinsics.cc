@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "msc_vo/frame/frame_intrinsics.h"
+
 namespace msc_vo {
 
 namespace {
@@ -16,6 +18,7 @@ template <typename L>
 void MoveLandmarks(Map* map) {
   std::vector<std::pair<LandmarkId, typename L::Geometry>> moved;
   for (const auto& [id, landmark] : map->landmarks<L>()) {
+    if (map->IsOfEarlierSession(landmark.observations.front().keyframe)) continue;
     for (const Observation& observation : landmark.observations) {
       const Keyframe& keyframe = *map->FindKeyframe(observation.keyframe);
       if (!FeaturesOf<L>(*keyframe.frame)[observation.feature].HasDepth()) continue;
@@ -27,14 +30,36 @@ void MoveLandmarks(Map* map) {
   for (const auto& [id, geometry] : moved) map->SetGeometry<L>(id, geometry);
 }
 
-}  // namespace
+template <typename L>
+void RefreshAll(Map* map) {
+  std::vector<LandmarkId> ids;
+  for (const auto& [id, landmark] : map->landmarks<L>()) ids.push_back(id);
+  for (const LandmarkId id : ids) map->Refresh<L>(id);
+}
 
-void ChangeKeyframeIntrinsics(const KeyframeUpdate& update, Map* map) {
+void ReplaceFrames(const KeyframeUpdate& update, Map* map) {
   std::vector<std::pair<KeyframeId, std::shared_ptr<const Frame>>> frames;
   for (const auto& [id, keyframe] : map->keyframes()) {
-    frames.emplace_back(id, update(id, keyframe.frame));
+    std::shared_ptr<const Frame> frame = update(id, keyframe.frame);
+    if (frame != keyframe.frame) frames.emplace_back(id, std::move(frame));
   }
   for (auto& [id, frame] : frames) map->SetFrame(id, std::move(frame));
+}
+
+}  // namespace
+
+void ChangeKeyframeCamera(const PinholeCamera& camera, Map* map) {
+  ReplaceFrames(
+      [&](KeyframeId /*id*/, const std::shared_ptr<const Frame>& frame) {
+        return ChangeCamera(frame, camera);
+      },
+      map);
+  // The distance at which a patch has the size of a pyramid level depends on the camera.
+  ForEachLandmarkKind([map](auto kind) { RefreshAll<typename decltype(kind)::Landmark>(map); });
+}
+
+void ChangeKeyframeIntrinsics(const KeyframeUpdate& update, Map* map) {
+  ReplaceFrames(update, map);
   ForEachLandmarkKind([map](auto kind) { MoveLandmarks<typename decltype(kind)::Landmark>(map); });
 }
 

@@ -89,6 +89,12 @@ void AxesEstimator::RejectRefinement() {
   if (state_ == AxesState::kCoarse) Drop();
 }
 
+void AxesEstimator::Restore(const Eigen::Quaterniond& world_from_axes, double sigma) {
+  state_ = sigma < kCoarseSigma ? AxesState::kRefined : AxesState::kCoarse;
+  world_from_axes_ = world_from_axes.normalized();
+  sigma_ = sigma;
+}
+
 void AxesEstimator::Drop() {
   state_ = AxesState::kNone;
   world_from_axes_ = Eigen::Quaterniond::Identity();

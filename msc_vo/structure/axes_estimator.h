@@ -60,6 +60,9 @@ class AxesEstimator {
   /// refinement is due when the map has grown. Throws std::invalid_argument if none was due.
   void RejectRefinement();
 
+  /// Sets axes of an earlier run, with their sigma (radians).
+  void Restore(const Eigen::Quaterniond& world_from_axes, double sigma);
+
   AxesState state() const { return state_; }
   int num_refinements() const { return num_refinements_; }
   /// The columns of its matrix are the axes in the world. Meaningless in state kNone.

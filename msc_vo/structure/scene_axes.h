@@ -34,6 +34,11 @@ class SceneAxes {
  public:
   explicit SceneAxes(const SceneAxesOptions& options) : options_(options) {}
 
+  /// Begins with the axes of an earlier run. No effect if axes are disabled. The deviation of lines
+  /// is learnt again.
+  void Restore(const AxesEstimate& axes) {
+    if (options_.enabled) estimator_.Restore(axes.world_from_axes, axes.sigma);
+  }
   /// Call after `keyframe` was added to the map. `normals`: its surface normals, camera frame;
   /// needed only while there are no axes.
   void Update(const Map& map, KeyframeId keyframe, const std::vector<AxisEvidence>& normals);

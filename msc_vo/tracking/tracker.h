@@ -34,6 +34,9 @@ class Tracker {
   /// for matches starts from their pose, and a frame whose image yields none keeps it.
   void SetPoseFactors(PoseFactorCallback callback) { pose_factor_callback_ = std::move(callback); }
 
+  /// Sets the id of the first keyframe. Call it before the first frame.
+  void SetFirstKeyframe(KeyframeId id) { next_keyframe_ = id; }
+
   /// Tracks the next frame, which is as the features were extracted. The returned one is
   /// compensated for the rolling shutter like the map, unless the camera's velocity is unknown, as
   /// after a gap. Frames must be in order of time, and snapshots never older than those before.

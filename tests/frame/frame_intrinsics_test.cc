@@ -52,5 +52,48 @@ TEST(ChangeIntrinsics, KeepsDepthsThatWereRegisteredOtherwise) {
   EXPECT_TRUE(changed->lines[0].depth);
 }
 
+TEST(ChangeCamera, KeepsViewingRaysAndDepths) {
+  const auto frame = FrameWith(Intrinsics(-0.1, false));
+  const PinholeCamera half{250.0, 250.0, 160.0, 110.0, 320, 240};
+  const auto changed = ChangeCamera(frame, half);
+  EXPECT_TRUE(changed->PointInCamera(0).isApprox(frame->PointInCamera(0), 1e-12));
+  EXPECT_TRUE(Eigen::Vector3d(changed->LineInCamera(0).end)
+                  .isApprox(Eigen::Vector3d(frame->LineInCamera(0).end), 1e-12));
+  EXPECT_EQ(changed->camera.width, 320);
+  EXPECT_EQ(changed->points[0].sigma, 0.5 * frame->points[0].sigma);
+}
+
+// The recorded pixels of the features are the same.
+TEST(ChangeCamera, KeepsTheLens) {
+  const auto frame = FrameWith(Intrinsics(-0.1, false));
+  const auto changed = ChangeCamera(frame, {250.0, 250.0, 160.0, 110.0, 320, 240});
+  const Eigen::Vector2d before =
+      frame->intrinsics->distortion.Distort(frame->camera, frame->points[0].pixel);
+  const Eigen::Vector2d after =
+      changed->intrinsics->distortion.Distort(changed->camera, changed->points[0].pixel);
+  EXPECT_TRUE(after.isApprox(before, 1e-12));
+}
+
+// A point has the level at which its patch shows the same part of the scene.
+TEST(ChangeCamera, ScalesPyramidLevels) {
+  auto frame = std::make_shared<Frame>(*FrameWith(Intrinsics(0.0, false)));
+  frame->points[0].level = 5;
+  const double f = 500.0 / (kPyramidScale * kPyramidScale);
+  EXPECT_EQ(ChangeCamera(frame, {f, f, 320.0, 240.0, 640, 480})->points[0].level, 3);
+  EXPECT_EQ(ChangeCamera(frame, {5.0, 5.0, 320.0, 240.0, 640, 480})->points[0].level, 0);
+  EXPECT_EQ(ChangeCamera(frame, kCamera), frame);
+}
+
+TEST(ChangeCamera, TakesDepthRangesFromTheSameRays) {
+  auto frame = std::make_shared<Frame>(*FrameWith(Intrinsics(0.0, false)));
+  frame->depth_ranges.cells.resize(DepthRanges::kColumns * DepthRanges::kRows);
+  frame->depth_ranges.cells[DepthRanges::CellOf(kCamera, {418.0, 338.0})] = {0.5f, 1.0f};
+  // Twice the field of view: the centre of the cell of pixel (370, 290) is on that ray.
+  const PinholeCamera wide{250.0, 250.0, 321.0, 241.0, 640, 480};
+  const auto changed = ChangeCamera(frame, wide);
+  EXPECT_TRUE(changed->depth_ranges.cells[DepthRanges::CellOf(wide, {370.0, 290.0})].HasDepth());
+  EXPECT_FALSE(changed->depth_ranges.At(0, 0).HasDepth());
+}
+
 }  // namespace
 }  // namespace msc_vo

@@ -5,6 +5,7 @@
 
 #include <map>
 #include <random>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -111,6 +112,40 @@ TEST(SharedTableTest, ChangesInASnapshotDoNotAffectTheTable) {
   shared.Append(190, 19);
   EXPECT_EQ(Contents(table), Contents(MakeTable()));
   EXPECT_EQ(shared.size(), 18u);
+}
+
+// Against a comparison of all values, over random changes of all kinds.
+TEST(SharedTableTest, VisitsChanges) {
+  std::mt19937 random(5);
+  Table table;
+  int64_t next = 0;
+  for (int round = 0; round < 200; ++round) {
+    const Table before = table.Share();
+    for (int i = static_cast<int>(random() % 8); i > 0; --i) {
+      const int64_t id = next > 0 ? static_cast<int64_t>(random() % next) : 0;
+      if (random() % 2 == 0) table.Append(next++, 0);
+      if (random() % 2 == 0) table.Erase(id);
+      if (int* value = table.FindToChange(id)) ++*value;
+    }
+    std::set<int64_t> changed, erased;
+    table.VisitChanges(
+        before, [&](const auto& entry) { changed.insert(entry.first); },
+        [&](int64_t id) { erased.insert(id); });
+    size_t num_unchanged = 0;
+    for (const auto& [id, value] : table) {
+      const int* const was = before.Find(id);
+      const bool is_changed = was == nullptr || *was != value;
+      EXPECT_GE(changed.count(id), is_changed ? 1u : 0u);
+      num_unchanged += 1 - changed.count(id);
+    }
+    EXPECT_EQ(num_unchanged + changed.size(), table.size());
+    std::set<int64_t> missing;
+    for (const auto& [id, value] : before) {
+      if (table.Find(id) == nullptr) missing.insert(id);
+    }
+    EXPECT_EQ(erased, missing);
+    EXPECT_GE(num_unchanged, round > 100 ? 1u : 0u);
+  }
 }
 
 }  // namespace

@@ -126,5 +126,33 @@ TEST_F(AtlasTest, SnapshotsDoNotSeeAJoin) {
   EXPECT_EQ(before.Find<PointLandmark>(new_.point)->position, Eigen::Vector3d(0.5, 0.0, 2.0));
 }
 
+TEST_F(AtlasTest, BeginsWithTheMapsOfEarlierSessions) {
+  Atlas next(SceneAxesOptions(), NoiseEstimatorOptions{});
+  std::vector<SavedSubMap> saved = atlas_.ShareSubMaps();
+  ASSERT_EQ(saved.size(), 2u);
+  AxesEstimate axes;
+  axes.sigma = 1e-3;
+  saved[1].axes = axes;
+  next.BeginWith(std::move(saved));
+  EXPECT_EQ(next.current().id, 2);
+  ASSERT_EQ(next.inactive_maps().size(), 2u);
+  EXPECT_FALSE(next.Find(0)->axes.Estimate());
+  EXPECT_TRUE(next.Find(1)->axes.Estimate());
+  const Ids ids = Fill(&next.current().map);
+  EXPECT_GT(ids.first, new_.second);
+  EXPECT_GT(ids.point, new_.line);
+  EXPECT_FALSE(next.current().map.IsOfEarlierSession(ids.first));
+  // Also after joins, and in further maps.
+  ASSERT_TRUE(next.Join(old_.first, Rigid3()));
+  EXPECT_EQ(next.current().id, 0);
+  EXPECT_TRUE(next.current().map.IsOfEarlierSession(old_.second));
+  EXPECT_FALSE(next.current().map.IsOfEarlierSession(ids.first));
+  next.Begin(true);
+  EXPECT_EQ(next.current().id, 3);
+  EXPECT_TRUE(next.current().map.IsOfEarlierSession(new_.second));
+  EXPECT_FALSE(next.current().map.IsOfEarlierSession(ids.second));
+  EXPECT_EQ(next.ShareSubMaps().size(), 2u);  // those with keyframes
+}
+
 }  // namespace
 }  // namespace msc_vo

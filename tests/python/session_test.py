@@ -67,6 +67,33 @@ class Session(unittest.TestCase):
         known = msc_vo.window_covariance(window, keyframes=[newest])["keyframes"][newest]
         self.assertTrue(np.all(np.linalg.eigvalsh(known) > 0.0))
 
+    def test_a_map_outlives_a_run(self):
+        sequence = msc_vo.Sequence(support.ROOM)
+        options = msc_vo.Options()
+        first = msc_vo.Odometry(options, sequence.camera, sequence.lens)
+        for image in sequence:
+            first.process(image.timestamp, image.gray, image.depth)
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "home.map")
+            first.save_map(path, session="first")
+            second = msc_vo.Odometry(options, sequence.camera, sequence.lens)
+            with self.assertRaisesRegex(RuntimeError, "none.map"):
+                second.load_map(pathlib.Path(folder, "none.map"))
+            second.load_map(path)
+            for image in sequence:
+                second.process(image.timestamp, image.gray, image.depth)
+            with self.assertRaisesRegex(ValueError, "first image"):
+                second.load_map(path)
+            second.save_map(path)
+        result = second.finish()
+        self.assertIsNone(first.finish().first_localized_frame)
+        found = result.first_localized_frame
+        self.assertLess(found, len(sequence) // 2)
+        self.assertEqual([segment["is_earlier_session"] for segment in result.segments], [True, False])
+        self.assertEqual(result.segments[1]["world"], 0)
+        apart = np.linalg.norm(result.trajectory[:, 1:4] - first.finish().trajectory[:, 1:4], axis=1)
+        self.assertLess(apart.max(), 0.01)
+
 
 def first_pose(result):
     return result.trajectory[0].tolist()

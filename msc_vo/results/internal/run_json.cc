@@ -48,7 +48,8 @@ Json SegmentsToJson(const RunSummary& summary) {
                     {"last_frame", segment.last_frame},
                     {"estimated", segment.num_estimated},
                     {"world", segment.world},
-                    {"in_map", segment.world == summary.map_world}});
+                    {"in_map", segment.world == summary.map_world},
+                    {"earlier_session", segment.is_earlier_session}});
     json.back()["joined"] = Json();
     if (!segment.join) continue;
     json.back()["joined"] = {{"frame", segment.join->frame},

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "apps/cli/run_map.h"
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <exception>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "apps/cli/command_log.h"
+#include "msc_vo/logging/logger.h"
+#include "msc_vo/map_file/map_reader.h"
+#include "msc_vo/text/format_text.h"
+
+namespace msc_vo {
+
+namespace {
+
+bool AreSame(const MapSession& a, const MapSession& b) {
+  return a.first_keyframe == b.first_keyframe && a.name == b.name;
+}
+
+}  // namespace
+
+void AddMapArguments(CLI::App* command, MapArguments* arguments) {
+  CLI::Option* map =
+      command
+          ->add_option("--map", arguments->map,
+                       "Map file: the run finds itself in it and extends it; created if it does "
+                       "not exist")
+          ->type_name("FILE");
+  command
+      ->add_option("--localize", arguments->localize,
+                   "Map file that is only read: poses are in its world, from the first image on "
+                   "that is found in it")
+      ->type_name("FILE")
+      ->excludes(map);
+}
+
+std::string NewSessionName(const std::string& sequence) {
+  using std::chrono::system_clock;
+  const system_clock::time_point now = system_clock::now();
+  const std::time_t seconds = system_clock::to_time_t(now);
+  const auto milliseconds =
+      std::chrono::duration_cast<std::chrono::milliseconds>(now.time_since_epoch()).count() % 1000;
+  std::tm utc{};
+  gmtime_r(&seconds, &utc);
+  char text[32];
+  std::strftime(text, sizeof(text), "%Y-%m-%d %H:%M:%S", &utc);
+  return sequence + FormatText(", %s.%03d UTC", text, static_cast<int>(milliseconds));
+}
+
+RunMap::RunMap(const MapArguments& arguments, const std::string& session, double interval,
+               bool resumed)
+    : arguments_(arguments),
+      session_(session),
+      interval_(interval),
+      resumed_(resumed),
+      pause_(interval) {
+  if (!arguments.map.empty()) {
+    writer_ = std::make_unique<MapWriter>(arguments.map);
+    earlier_ = writer_->Load();
+  } else if (localizes()) {
+    earlier_ = LoadMap(arguments.localize);
+    if (earlier_.submaps.empty()) {
+      throw std::runtime_error(arguments.localize +
+                               ": has no keyframes; build a map with msc_vo replay --map");
+    }
+  }
+  num_worlds_ = static_cast<int>(earlier_.submaps.size());
+}
+
+// The file must be as this run left it: with the sessions that it began with, and possibly itself.
+void RunMap::CheckResumable(const MapContents& run) const {
+  const std::vector<MapSession>& saved = earlier_.sessions;
+  const std::vector<MapSession>& own = run.sessions;
+  const bool is_own = (saved.size() == own.size() || saved.size() + 1 == own.size()) &&
+                      std::equal(saved.begin(), saved.end(), own.begin(), AreSame);
+  if (is_own) return;
+  throw std::runtime_error(arguments_.map +
+                           ": has been written by another run since; start a new run without "
+                           "--resume");
+}
+
+void RunMap::Begin(Odometry* odometry) {
+  if (!resumed_) {
+    if (!earlier_.submaps.empty()) odometry->SetMap(std::exchange(earlier_, {}));
+    return;
+  }
+  const std::optional<MapContents> run = odometry->ShareMaps(session_);
+  if (run && writer_) CheckResumable(*run);
+  earlier_ = {};
+}
+
+void RunMap::Save(Odometry* odometry) {
+  if (!writer_) return;
+  std::optional<MapContents> contents = odometry->ShareMaps(session_);
+  if (contents && !contents->submaps.empty()) writer_->Write(std::move(*contents));
+}
+
+void RunMap::SaveIfDue(Odometry* odometry) {
+  constexpr double kPausePerDuration = 50.0;
+  if (!writer_ || since_saved_.Milliseconds() < 1000.0 * pause_) return;
+  const Stopwatch stopwatch;
+  try {
+    Save(odometry);
+  } catch (const std::exception& error) {
+    if (!has_warned_) PrintWarning(std::string("the map is not saved: ") + error.what());
+    has_warned_ = true;
+  }
+  const double milliseconds = stopwatch.Milliseconds();
+  Log().debug("map saved in {:.1f} ms", milliseconds);
+  pause_ = interval_ > 0.0 ? std::max(interval_, kPausePerDuration * 1e-3 * milliseconds) : 0.0;
+  since_saved_.Restart();
+}
+
+}  // namespace msc_vo

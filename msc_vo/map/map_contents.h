@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "msc_vo/geometry/pose_covariance.h"
+#include "msc_vo/geometry/rigid3.h"
+#include "msc_vo/map/map.h"
+#include "msc_vo/map/noise_scale.h"
+#include "msc_vo/map/snapshot.h"
+
+namespace msc_vo {
+
+/// A run of the odometry that added keyframes to a map.
+struct MapSession {
+  /// Its keyframes have this id or a higher one, up to those of the next session. Time stamps of
+  /// different sessions cannot be compared.
+  KeyframeId first_keyframe = 0;
+  std::string name;  ///< for people, such as the name of the sequence
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, first_keyframe, name);
+  }
+};
+
+/// A map in a world of its own, as it outlives a run.
+struct SavedSubMap {
+  int id = 0;  ///< of its world; the smaller of two is kept when they are joined
+  Map map;
+  std::optional<AxesEstimate> axes;
+  NoiseScale noise_scale;
+};
+
+/// A measured transform between two keyframes that closes a loop.
+struct LoopEdge {
+  KeyframeId from = kNoId;
+  KeyframeId to = kNoId;
+  Rigid3 to_from_from;  ///< camera to camera
+  /// Of `to_from_from`, in the tangent of Rigid3Manifold.
+  PoseCovariance covariance = PoseCovariance::Zero();
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, from, to, to_from_from, covariance);
+  }
+};
+
+/// All that is kept of the runs that have built a map. Ids of keyframes and landmarks are unique
+/// over all submaps. Calibrations belong to the frames of the keyframes.
+struct MapContents {
+  std::vector<MapSession> sessions;  ///< in order of their keyframes; at least one
+  std::vector<SavedSubMap> submaps;  ///< by ascending id
+  std::vector<LoopEdge> loops;
+};
+
+}  // namespace msc_vo

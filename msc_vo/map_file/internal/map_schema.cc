@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/map_file/internal/map_schema.h"
+
+#include <stdexcept>
+#include <string>
+
+namespace msc_vo {
+
+namespace {
+
+constexpr int64_t kApplicationId = 0x4d534356;  // "MSCV"
+
+// Without an index or a view of its own: every query is by the id.
+constexpr struct {
+  const char* name;
+  const char* sql;
+} kTables[] = {
+    {"map",
+     "CREATE TABLE map (id INTEGER PRIMARY KEY, next_keyframe INTEGER NOT NULL, next_landmark "
+     "INTEGER NOT NULL, program TEXT NOT NULL, checksum INTEGER NOT NULL)"},
+    {"session",
+     "CREATE TABLE session (id INTEGER PRIMARY KEY, first_keyframe INTEGER NOT NULL, name TEXT NOT "
+     "NULL, checksum INTEGER NOT NULL)"},
+    {"calibration",
+     "CREATE TABLE calibration (id INTEGER PRIMARY KEY, width INTEGER NOT NULL, height INTEGER NOT "
+     "NULL, fx REAL NOT NULL, fy REAL NOT NULL, cx REAL NOT NULL, cy REAL NOT NULL, lens TEXT, "
+     "coefficients BLOB, recorded BLOB, registration BLOB, checksum INTEGER NOT NULL)"},
+    {"submap",
+     "CREATE TABLE submap (id INTEGER PRIMARY KEY, qx REAL, qy REAL, qz REAL, qw REAL, sigma REAL, "
+     "deviation REAL, point_depth_noise REAL NOT NULL, line_pixel_noise REAL NOT NULL, "
+     "line_depth_noise REAL NOT NULL, checksum INTEGER NOT NULL)"},
+    {"keyframe",
+     "CREATE TABLE keyframe (id INTEGER PRIMARY KEY, submap INTEGER NOT NULL, qx REAL NOT NULL, qy "
+     "REAL NOT NULL, qz REAL NOT NULL, qw REAL NOT NULL, tx REAL NOT NULL, ty REAL NOT NULL, tz "
+     "REAL NOT NULL, checksum INTEGER NOT NULL)"},
+    {"features",
+     "CREATE TABLE features (keyframe INTEGER PRIMARY KEY, frame INTEGER NOT NULL, timestamp REAL "
+     "NOT NULL, calibration INTEGER NOT NULL, points BLOB NOT NULL, point_landmarks BLOB NOT NULL, "
+     "lines BLOB NOT NULL, line_landmarks BLOB NOT NULL, depth_ranges BLOB NOT NULL, checksum "
+     "INTEGER NOT NULL)"},
+    {"point",
+     "CREATE TABLE point (id INTEGER PRIMARY KEY, submap INTEGER NOT NULL, first_keyframe INTEGER "
+     "NOT NULL, x INTEGER NOT NULL, y INTEGER NOT NULL, z INTEGER NOT NULL, visible INTEGER NOT "
+     "NULL, found INTEGER NOT NULL, noise REAL NOT NULL, checksum INTEGER NOT NULL)"},
+    {"line",
+     "CREATE TABLE line (id INTEGER PRIMARY KEY, submap INTEGER NOT NULL, first_keyframe INTEGER "
+     "NOT NULL, start_x INTEGER NOT NULL, start_y INTEGER NOT NULL, start_z INTEGER NOT NULL, "
+     "end_x INTEGER NOT NULL, end_y INTEGER NOT NULL, end_z INTEGER NOT NULL, depth_offset INTEGER "
+     "NOT NULL, visible INTEGER NOT NULL, found INTEGER NOT NULL, noise REAL NOT NULL, checksum "
+     "INTEGER NOT NULL)"},
+    {"loop",
+     "CREATE TABLE loop (id INTEGER PRIMARY KEY, from_keyframe INTEGER NOT NULL, to_keyframe "
+     "INTEGER NOT NULL, qx REAL NOT NULL, qy REAL NOT NULL, qz REAL NOT NULL, qw REAL NOT NULL, tx "
+     "REAL NOT NULL, ty REAL NOT NULL, tz REAL NOT NULL, covariance BLOB NOT NULL, checksum "
+     "INTEGER NOT NULL)"},
+};
+
+[[noreturn]] void Fail(const SqliteDatabase& database, const std::string& problem) {
+  throw std::runtime_error(database.path() + ": " + problem);
+}
+
+int64_t NumObjects(const SqliteDatabase& database) {
+  return database.Integer("SELECT count(*) FROM sqlite_master");
+}
+
+}  // namespace
+
+bool IsEmptyDatabase(const SqliteDatabase& database) {
+  return database.Integer("PRAGMA application_id") == 0 && NumObjects(database) == 0;
+}
+
+void CreateSchema(const SqliteDatabase& database) {
+  database.Execute("PRAGMA application_id = " + std::to_string(kApplicationId));
+  database.Execute("PRAGMA user_version = " + std::to_string(kMapFileVersion));
+  for (const auto& table : kTables) database.Execute(table.sql);
+}
+
+void CheckSchema(const SqliteDatabase& database) {
+  if (IsEmptyDatabase(database)) {
+    Fail(database, "is empty: no map has been written to it; build one with msc_vo replay --map");
+  }
+  if (database.Integer("PRAGMA application_id") != kApplicationId) {
+    Fail(database, "is no map of msc_vo, but another SQLite file; choose another file");
+  }
+  const int64_t version = database.Integer("PRAGMA user_version");
+  if (version > kMapFileVersion) {
+    Fail(database, "has version " + std::to_string(version) + " of the format, and this program " +
+                       "reads up to version " + std::to_string(kMapFileVersion) +
+                       "; use a newer msc_vo");
+  }
+  constexpr char kFix[] = "); restore a copy, or record the map again";
+  if (version < 1) Fail(database, "is damaged (its version is not valid" + std::string(kFix));
+  int64_t num_tables = 0;
+  for (const auto& table : kTables) {
+    SqliteStatement find = database.Prepare("SELECT sql FROM sqlite_master WHERE name = ?");
+    find.BindText(0, table.name);
+    if (!find.Step() || find.Bytes(0) != table.sql) {
+      Fail(database, std::string("is damaged (its table ") + table.name + " is not valid" + kFix);
+    }
+    ++num_tables;
+  }
+  if (NumObjects(database) != num_tables) {
+    Fail(database, "is damaged (it contains what is no part of a map" + std::string(kFix));
+  }
+}
+
+}  // namespace msc_vo

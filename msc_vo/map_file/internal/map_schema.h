@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include "msc_vo/map_file/internal/sqlite_database.h"
+
+namespace msc_vo {
+
+/// Version of the tables, docs/map_file.md.
+constexpr int kMapFileVersion = 1;
+
+/// Whether the file has no tables at all: it is new, or a run was killed before it wrote anything.
+bool IsEmptyDatabase(const SqliteDatabase& database);
+
+/// Makes the tables in an empty file.
+void CreateSchema(const SqliteDatabase& database);
+
+/// Throws std::runtime_error unless the file is a map of a version that this program reads.
+void CheckSchema(const SqliteDatabase& database);
+
+}  // namespace msc_vo

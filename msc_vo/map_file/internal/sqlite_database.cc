@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/map_file/internal/sqlite_database.h"
+
+#include <cerrno>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+
+#include <sqlite3.h>
+
+#include "msc_vo/text/files.h"
+#include "msc_vo/text/write_error.h"
+
+namespace msc_vo {
+
+namespace {
+
+// Largest text or blob that is read: a hundred times what a keyframe takes.
+constexpr int kMaxBytes = 16 << 20;
+
+std::string Describe(sqlite3* database, int result) {
+  const std::string text = sqlite3_errmsg(database);
+  switch (result & 0xff) {
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      return "is in use by another run of msc_vo; wait until that has ended, or choose another "
+             "file";
+    case SQLITE_NOTADB:
+      return "is no map of msc_vo (" + text + "); choose another file";
+    case SQLITE_CORRUPT:
+    case SQLITE_TOOBIG:
+    case SQLITE_ERROR:
+    case SQLITE_SCHEMA:
+      return "is damaged (" + text + "); restore a copy, or record the map again";
+    default:
+      return "cannot be used as a map (" + text +
+             "); check the file, its folder and its permissions";
+  }
+}
+
+[[noreturn]] void Fail(sqlite3* database, const std::string& path, int result) {
+  switch (result & 0xff) {
+    case SQLITE_FULL:
+      throw WriteError(path, ENOSPC);
+    case SQLITE_READONLY:
+      throw WriteError(path, EACCES);
+    default:
+      throw std::runtime_error(path + ": " + Describe(database, result));
+  }
+}
+
+// SQLite takes a file that is shorter than a page for a new one, and would overwrite it.
+void RefuseOtherFiles(const std::string& path) {
+  const std::string problem = FileProblem(path, std::numeric_limits<std::uintmax_t>::max());
+  if (!problem.empty()) throw std::runtime_error(path + ": " + problem);
+  constexpr size_t kSmallestPage = 512;
+  constexpr std::string_view kMagic("SQLite format 3", 16);
+  std::string header(kSmallestPage, '\0');
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error(path + ": cannot be read (check its permissions)");
+  file.read(header.data(), static_cast<std::streamsize>(header.size()));
+  header.resize(static_cast<size_t>(file.gcount()));
+  if (header.empty()) return;
+  if (header.compare(0, kMagic.size(), kMagic) != 0) {
+    throw std::runtime_error(path + ": is no map of msc_vo; choose another file");
+  }
+  if (header.size() < kSmallestPage) {
+    throw std::runtime_error(path +
+                             ": is damaged (truncated); restore a copy, or record the map again");
+  }
+}
+
+}  // namespace
+
+void SqliteStatement::Finalize::operator()(sqlite3_stmt* statement) const {
+  sqlite3_finalize(statement);
+}
+
+SqliteStatement::SqliteStatement(sqlite3* database, const std::string& path, const std::string& sql)
+    : database_(database), path_(path) {
+  sqlite3_stmt* statement = nullptr;
+  const int result = sqlite3_prepare_v2(database, sql.c_str(), static_cast<int>(sql.size() + 1),
+                                        &statement, nullptr);
+  statement_.reset(statement);
+  Check(result);
+}
+
+void SqliteStatement::Check(int result) const {
+  if (result != SQLITE_OK) Fail(database_, path_, result);
+}
+
+void SqliteStatement::BindNull(int parameter) {
+  Check(sqlite3_bind_null(statement_.get(), parameter + 1));
+}
+
+void SqliteStatement::Bind(int parameter, int64_t value) {
+  Check(sqlite3_bind_int64(statement_.get(), parameter + 1, value));
+}
+
+void SqliteStatement::Bind(int parameter, double value) {
+  Check(sqlite3_bind_double(statement_.get(), parameter + 1, value));
+}
+
+void SqliteStatement::BindText(int parameter, std::string_view text) {
+  Check(sqlite3_bind_text(statement_.get(), parameter + 1, text.data(),
+                          static_cast<int>(text.size()), SQLITE_TRANSIENT));
+}
+
+void SqliteStatement::BindBlob(int parameter, std::string_view bytes) {
+  // Without a pointer, SQLite would store NULL instead of an empty blob.
+  const char* data = bytes.empty() ? "" : bytes.data();
+  Check(sqlite3_bind_blob64(statement_.get(), parameter + 1, data, bytes.size(), SQLITE_STATIC));
+}
+
+bool SqliteStatement::Step() {
+  const int result = sqlite3_step(statement_.get());
+  if (result == SQLITE_ROW) return true;
+  if (result != SQLITE_DONE) {
+    // The message of the failed step, which resetting repeats.
+    sqlite3_reset(statement_.get());
+    Fail(database_, path_, result);
+  }
+  Check(sqlite3_reset(statement_.get()));
+  return false;
+}
+
+int SqliteStatement::Type(int column) const {
+  return sqlite3_column_type(statement_.get(), column);
+}
+
+int64_t SqliteStatement::Integer(int column) const {
+  return sqlite3_column_int64(statement_.get(), column);
+}
+
+double SqliteStatement::Real(int column) const {
+  return sqlite3_column_double(statement_.get(), column);
+}
+
+std::string_view SqliteStatement::Bytes(int column) const {
+  const void* data = sqlite3_column_blob(statement_.get(), column);
+  const int size = sqlite3_column_bytes(statement_.get(), column);
+  return data == nullptr ? std::string_view()
+                         : std::string_view(static_cast<const char*>(data), size);
+}
+
+void SqliteDatabase::Close::operator()(sqlite3* database) const { sqlite3_close(database); }
+
+// A reader, too, opens the file for writing if it may: a run that was killed may have left a
+// journal from which its last state has to be restored.
+SqliteDatabase::SqliteDatabase(const std::string& path, Access access) : path_(path) {
+  if (access == Access::kRead || HasEntry(path)) RefuseOtherFiles(path);
+  const int create = access == Access::kWrite ? SQLITE_OPEN_CREATE : 0;
+  sqlite3* database = nullptr;
+  const int result =
+      sqlite3_open_v2(path.c_str(), &database, SQLITE_OPEN_READWRITE | create, nullptr);
+  database_.reset(database);
+  if (result != SQLITE_OK) Fail(database, path, result);
+  sqlite3_extended_result_codes(database, 1);
+  sqlite3_limit(database, SQLITE_LIMIT_LENGTH, kMaxBytes);
+  sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+  // Nothing in a file of others is executed, and its pages are checked before they are used.
+  Execute("PRAGMA trusted_schema = OFF");
+  Execute("PRAGMA cell_size_check = ON");
+  if (access != Access::kWrite) return;
+  // The lock is taken by the first transaction and kept until the connection is closed.
+  Execute("PRAGMA locking_mode = EXCLUSIVE");
+  Execute("PRAGMA synchronous = NORMAL");
+  Execute("BEGIN EXCLUSIVE");
+  Execute("COMMIT");
+}
+
+void SqliteDatabase::Execute(const std::string& sql) const {
+  SqliteStatement statement = Prepare(sql);
+  while (statement.Step()) continue;
+}
+
+int64_t SqliteDatabase::Integer(const std::string& sql) const {
+  SqliteStatement statement = Prepare(sql);
+  const int64_t value = statement.Step() ? statement.Integer(0) : 0;
+  return value;
+}
+
+void SqliteDatabase::RollBack() const {
+  // Fails if an error has ended the transaction already.
+  if (sqlite3_get_autocommit(database_.get()) == 0) {
+    sqlite3_exec(database_.get(), "ROLLBACK", nullptr, nullptr, nullptr);
+  }
+}
+
+}  // namespace msc_vo

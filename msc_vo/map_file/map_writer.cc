@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/map_file/map_writer.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "msc_vo/map_file/internal/blob.h"
+#include "msc_vo/map_file/internal/calibration_rows.h"
+#include "msc_vo/map_file/internal/feature_blob.h"
+#include "msc_vo/map_file/internal/map_schema.h"
+#include "msc_vo/map_file/internal/row.h"
+#include "msc_vo/map_file/internal/sqlite_database.h"
+#include "msc_vo/map_file/internal/table_reader.h"
+#include "msc_vo/version.h"
+
+namespace msc_vo {
+
+namespace {
+
+const Keyframe* FindKeyframe(const MapContents& contents, KeyframeId id) {
+  for (const SavedSubMap& submap : contents.submaps) {
+    if (const Keyframe* found = submap.map.FindKeyframe(id)) return found;
+  }
+  return nullptr;
+}
+
+template <typename L>
+bool Contains(const MapContents& contents, LandmarkId id) {
+  return std::any_of(contents.submaps.begin(), contents.submaps.end(),
+                     [id](const SavedSubMap& submap) { return submap.map.Find<L>(id) != nullptr; });
+}
+
+void AddPose(const Rigid3& pose, RowWriter* row) {
+  for (const double value : pose.params) row->Real(value);
+}
+
+void AddGeometry(const PointLandmark& point, RowWriter* row) {
+  for (const double x : point.position) row->Metres(x);
+}
+
+void AddGeometry(const LineLandmark& line, RowWriter* row) {
+  for (const double x : line.segment.start) row->Metres(x);
+  for (const double x : line.segment.end) row->Metres(x);
+  row->Metres(line.depth_offset);
+}
+
+SqliteStatement PrepareUpsert(const SqliteDatabase& database, const std::string& table,
+                              int num_columns) {
+  std::string sql = "INSERT OR REPLACE INTO " + table + " VALUES (?";
+  for (int i = 1; i < num_columns; ++i) sql += ", ?";
+  return database.Prepare(sql + ")");
+}
+
+// The difference of two maps, as changes of the tables.
+class TableWriter {
+ public:
+  TableWriter(const SqliteDatabase& database, const MapContents& before, const MapContents& now,
+              CalibrationRows* calibrations)
+      : database_(database), before_(before), now_(now), calibrations_(calibrations) {}
+
+  void Write() {
+    Erase();
+    for (const SavedSubMap& submap : now_.submaps) {
+      const auto same =
+          std::find_if(before_.submaps.begin(), before_.submaps.end(),
+                       [&](const SavedSubMap& other) { return other.id == submap.id; });
+      const Map empty;
+      WriteMap(submap.id, same != before_.submaps.end() ? same->map : empty, submap.map);
+    }
+    WriteSmallTables();
+  }
+
+ private:
+  void Erase();
+  void WriteMap(int submap, const Map& before, const Map& now);
+  void WriteKeyframe(int submap, const Keyframe& keyframe);
+  void WriteFeatures(const Keyframe& keyframe);
+  template <typename L>
+  void WriteLandmark(int submap, const L& landmark, SqliteStatement* upsert);
+  void WriteSmallTables();
+  void WriteSubMap(const SavedSubMap& submap);
+  void WriteLoop(int64_t id, const LoopEdge& loop);
+
+  const SqliteDatabase& database_;
+  const MapContents& before_;
+  const MapContents& now_;
+  CalibrationRows* calibrations_;
+  SqliteStatement keyframe_ = PrepareUpsert(database_, "keyframe", 10);
+  SqliteStatement features_ = PrepareUpsert(database_, "features", 10);
+};
+
+// Deletes what is in no map any more.
+void TableWriter::Erase() {
+  const auto erase = [this](const std::string& table, const std::string& key, int64_t id) {
+    SqliteStatement statement =
+        database_.Prepare("DELETE FROM " + table + " WHERE " + key + " = ?");
+    statement.Bind(0, id);
+    statement.Step();
+  };
+  const Map empty;
+  for (const SavedSubMap& submap : before_.submaps) {
+    const auto same = std::find_if(now_.submaps.begin(), now_.submaps.end(),
+                                   [&](const SavedSubMap& now) { return now.id == submap.id; });
+    const Map& now = same != now_.submaps.end() ? same->map : empty;
+    const auto keep = [](const auto& /*entry*/) {};
+    now.keyframes().VisitChanges(submap.map.keyframes(), keep, [&](KeyframeId id) {
+      if (FindKeyframe(now_, id) != nullptr) return;
+      erase("keyframe", "id", id);
+      erase("features", "keyframe", id);
+    });
+    ForEachLandmarkKind([&](auto kind) {
+      using L = typename decltype(kind)::Landmark;
+      now.landmarks<L>().VisitChanges(submap.map.landmarks<L>(), keep, [&](LandmarkId id) {
+        if (!Contains<L>(now_, id)) erase(L::kName, "id", id);
+      });
+    });
+  }
+}
+
+void TableWriter::WriteMap(int submap, const Map& before, const Map& now) {
+  const auto keep = [](int64_t /*id*/) {};
+  now.keyframes().VisitChanges(
+      before.keyframes(), [&](const auto& entry) { WriteKeyframe(submap, entry.second); }, keep);
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    SqliteStatement upsert =
+        PrepareUpsert(database_, L::kName, std::is_same_v<L, PointLandmark> ? 10 : 14);
+    now.landmarks<L>().VisitChanges(
+        before.landmarks<L>(),
+        [&](const auto& entry) { WriteLandmark(submap, entry.second, &upsert); }, keep);
+  });
+}
+
+void TableWriter::WriteKeyframe(int submap, const Keyframe& keyframe) {
+  RowWriter row(&keyframe_);
+  row.Integer(keyframe.id).Integer(submap);
+  AddPose(keyframe.cam_from_world, &row);
+  row.Execute();
+  const Keyframe* const was = FindKeyframe(before_, keyframe.id);
+  const bool has_same_features =
+      was != nullptr && was->frame == keyframe.frame && was->landmarks == keyframe.landmarks;
+  if (!has_same_features) WriteFeatures(keyframe);
+}
+
+void TableWriter::WriteFeatures(const Keyframe& keyframe) {
+  const Frame& frame = *keyframe.frame;
+  const FeatureBlobs blobs = EncodeFeatures(keyframe);
+  RowWriter row(&features_);
+  row.Integer(keyframe.id).Integer(frame.id).Real(frame.timestamp);
+  row.Integer(calibrations_->Write(database_, frame));
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    row.Blob(blobs.features.Of<L>()).Blob(blobs.landmarks.Of<L>());
+  });
+  row.Blob(blobs.depth_ranges).Execute();
+}
+
+template <typename L>
+void TableWriter::WriteLandmark(int submap, const L& landmark, SqliteStatement* upsert) {
+  RowWriter row(upsert);
+  row.Integer(landmark.id).Integer(submap).Integer(landmark.first_keyframe);
+  AddGeometry(landmark, &row);
+  row.Integer(landmark.num_visible).Integer(landmark.num_found).Real(landmark.noise);
+  row.Execute();
+}
+
+// Replaces the rows of tables with few rows.
+void TableWriter::WriteSmallTables() {
+  for (const char* table : {"map", "session", "submap", "loop"}) {
+    database_.Execute(std::string("DELETE FROM ") + table);
+  }
+  KeyframeId next_keyframe = 0;
+  LandmarkId next_landmark = 0;
+  for (const SavedSubMap& submap : now_.submaps) {
+    next_keyframe = std::max(next_keyframe, submap.map.next_keyframe());
+    next_landmark = std::max(next_landmark, submap.map.next_landmark());
+    WriteSubMap(submap);
+  }
+  SqliteStatement map = PrepareUpsert(database_, "map", 5);
+  RowWriter(&map)
+      .Integer(1)
+      .Integer(next_keyframe)
+      .Integer(next_landmark)
+      .Text(std::string("msc_vo ") + kVersion)
+      .Execute();
+  SqliteStatement insert = PrepareUpsert(database_, "session", 4);
+  int64_t id = 0;
+  for (const MapSession& session : now_.sessions) {
+    RowWriter(&insert).Integer(++id).Integer(session.first_keyframe).Text(session.name).Execute();
+  }
+  id = 0;
+  for (const LoopEdge& loop : now_.loops) WriteLoop(++id, loop);
+}
+
+void TableWriter::WriteSubMap(const SavedSubMap& submap) {
+  SqliteStatement insert = PrepareUpsert(database_, "submap", 11);
+  RowWriter row(&insert);
+  row.Integer(submap.id);
+  if (submap.axes) {
+    for (const double value : submap.axes->world_from_axes.coeffs()) row.Real(value);
+    row.Real(submap.axes->sigma).Real(submap.axes->deviation);
+  } else {
+    for (int i = 0; i < 6; ++i) row.Null();
+  }
+  const NoiseScale& noise = submap.noise_scale;
+  row.Real(noise.point_depth).Real(noise.line_pixel).Real(noise.line_depth).Execute();
+}
+
+void TableWriter::WriteLoop(int64_t id, const LoopEdge& loop) {
+  SqliteStatement insert = PrepareUpsert(database_, "loop", 12);
+  RowWriter row(&insert);
+  row.Integer(id).Integer(loop.from).Integer(loop.to);
+  AddPose(loop.to_from_from, &row);
+  BlobWriter covariance;
+  for (const double value : loop.covariance.reshaped()) covariance.F64(value);
+  row.Blob(covariance.bytes()).Execute();
+}
+
+void EraseAll(const SqliteDatabase& database) {
+  for (const char* table : {"calibration", "keyframe", "features", "point", "line"}) {
+    database.Execute(std::string("DELETE FROM ") + table);
+  }
+}
+
+MapContents Share(MapContents* contents) {
+  MapContents shared;
+  shared.sessions = contents->sessions;
+  shared.loops = contents->loops;
+  for (SavedSubMap& submap : contents->submaps) {
+    shared.submaps.push_back({submap.id, submap.map.Share(), submap.axes, submap.noise_scale});
+  }
+  return shared;
+}
+
+}  // namespace
+
+struct MapWriter::State {
+  explicit State(const std::string& path) : database(path, SqliteDatabase::Access::kWrite) {}
+
+  SqliteDatabase database;
+  bool is_empty = false;  // has no tables yet
+  bool is_known = false;  // `written` is what the file contains
+  MapContents written;
+  CalibrationRows calibrations;
+};
+
+MapWriter::MapWriter(const std::string& path) : state_(std::make_unique<State>(path)) {
+  state_->is_empty = IsEmptyDatabase(state_->database);
+  if (!state_->is_empty) CheckSchema(state_->database);
+}
+
+MapWriter::~MapWriter() = default;
+
+MapContents MapWriter::Load() {
+  MapContents contents;
+  if (!state_->is_empty) contents = ReadTables(state_->database, &state_->calibrations);
+  state_->written = Share(&contents);
+  state_->is_known = true;
+  return contents;
+}
+
+void MapWriter::Write(MapContents contents) {
+  State& state = *state_;
+  CalibrationRows calibrations = state.is_known ? state.calibrations : CalibrationRows();
+  const MapContents none;
+  state.database.Transaction([&] {
+    if (state.is_empty) CreateSchema(state.database);
+    if (!state.is_known) EraseAll(state.database);
+    TableWriter(state.database, state.is_known ? state.written : none, contents, &calibrations)
+        .Write();
+  });
+  state.is_empty = false;
+  state.is_known = true;
+  state.calibrations = std::move(calibrations);
+  state.written = std::move(contents);
+}
+
+void SaveMap(const std::string& path, MapContents contents) {
+  MapWriter(path).Write(std::move(contents));
+}
+
+}  // namespace msc_vo

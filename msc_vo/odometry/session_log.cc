@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/odometry/session_log.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace msc_vo {
+
+void SessionLog::BeginWith(MapContents earlier, const PinholeCamera& camera, Tracker* tracker,
+                           SegmentLog* segments, Mapper* mapper) {
+  for (const SavedSubMap& submap : earlier.submaps) {
+    first_keyframe_ = std::max(first_keyframe_, submap.map.next_keyframe());
+  }
+  earlier_ = std::move(earlier.sessions);
+  loops_ = std::move(earlier.loops);
+  tracker->SetFirstKeyframe(first_keyframe_);
+  segments->BeginWith(static_cast<int>(earlier.submaps.size()));
+  mapper->BeginWith(std::move(earlier.submaps), camera);
+}
+
+MapContents SessionLog::Share(const std::string& session, Mapper* mapper) const {
+  MapContents contents;
+  contents.sessions = earlier_;
+  contents.sessions.push_back({first_keyframe_, session});
+  contents.submaps = mapper->ShareSubMaps();
+  contents.loops = loops_;
+  return contents;
+}
+
+}  // namespace msc_vo

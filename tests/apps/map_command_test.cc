@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// Maps that outlive a run: replay --map and --localize, and the command map.
+
+#include <csignal>
+#include <filesystem>
+
+#include "tests/apps/command_process.h"
+#include "tests/apps/rendered_sequence.h"
+#include "tests/support/message_matchers.h"
+#include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "msc_vo/datasets/trajectory.h"
+#include "msc_vo/map_file/map_reader.h"
+#include "msc_vo/text/files.h"
+
+namespace msc_vo {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class MapCommandTest : public TemporaryFolder {
+ protected:
+  void SetUp() override {
+    TemporaryFolder::SetUp();
+    RenderSequence(Path("room"), {"--scene", "room", "--frames", "60", "--width", "320"});
+  }
+  CommandOutcome Replay(const std::string& sequence, const std::string& output,
+                        const std::vector<std::string>& more) const {
+    return RunCommand(Arguments(sequence, output, more));
+  }
+  std::vector<std::string> Arguments(const std::string& sequence, const std::string& output,
+                                     const std::vector<std::string>& more) const {
+    std::vector<std::string> arguments = {"replay", Path(sequence), "--quiet", "--output",
+                                          Path(output)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  }
+  void MakeMap() const {
+    const CommandOutcome outcome = Replay("room", "first", {"--map", Path("home.map")});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  }
+  nlohmann::json Summary(const std::string& output) const {
+    return nlohmann::json::parse(ReadFile(Path(output + "/summary.json")));
+  }
+  // Largest distance between the cameras of two runs over the same images, metres; estimated poses
+  // of `b` only.
+  double LargestDistance(const std::string& a, const std::string& b) const {
+    const std::vector<TimedPose> then = ReadTrajectory(Path(a + "/trajectory.txt"));
+    const std::vector<TimedPose> now = ReadTrajectory(Path(b + "/trajectory.txt"));
+    EXPECT_EQ(then.size(), now.size());
+    double largest = 0.0;
+    for (size_t i = 0; i < then.size(); ++i) {
+      if (!now[i].is_estimated) continue;
+      largest = std::max(
+          largest,
+          (then[i].world_from_cam.translation() - now[i].world_from_cam.translation()).norm());
+    }
+    return largest;
+  }
+  void ExpectMap(const std::string& file, size_t num_sessions) const {
+    EXPECT_NO_THROW(CheckMap(Path(file)));
+    EXPECT_EQ(SummarizeMap(Path(file)).sessions.size(), num_sessions);
+  }
+};
+
+TEST_F(MapCommandTest, CreatesAMapWithoutAnEffectOnTheRun) {
+  MakeMap();
+  ASSERT_EQ(Replay("room", "plain", {}).exit_code, 0);
+  EXPECT_EQ(ReadFile(Path("first/trajectory.txt")), ReadFile(Path("plain/trajectory.txt")));
+  EXPECT_FALSE(HasEntry(Path("home.map-journal")));
+  const CommandOutcome info = RunCommand({"map", "info", Path("home.map")});
+  EXPECT_EQ(info.exit_code, 0);
+  EXPECT_THAT(info.output, AllOf(LineNames("version", "1"), LineNames("session", "room"),
+                                 LineNames("submap", "0", "keyframes", "points", "lines")));
+  EXPECT_EQ(RunCommand({"map", "check", Path("home.map")}).exit_code, 0);
+}
+
+TEST_F(MapCommandTest, ExportsFilesOfOtherPrograms) {
+  MakeMap();
+  const CommandOutcome outcome =
+      RunCommand({"map", "export", Path("home.map"), "--output", Path("export")});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const MapContents contents = LoadMap(Path("home.map"));
+  const Map& map = contents.submaps[0].map;
+  const std::string folder = "export/submap_0/";
+  EXPECT_THAT(ReadFile(Path(folder + "points.ply")),
+              LineNames("element vertex", std::to_string(map.points().size())));
+  EXPECT_THAT(ReadFile(Path(folder + "lines.ply")),
+              LineNames("element edge", std::to_string(map.lines().size())));
+  const std::vector<TimedPose> keyframes = ReadTrajectory(Path(folder + "keyframes_1.txt"));
+  ASSERT_EQ(keyframes.size(), map.keyframes().size());
+  const std::string graph = ReadFile(Path(folder + "graph.g2o"));
+  EXPECT_THAT(graph, AllOf(HasSubstr("VERTEX_SE3:QUAT 0 "), HasSubstr("EDGE_SE3:QUAT 0 ")));
+  EXPECT_EQ(RunCommand({"map", "export", Path("home.map")}).exit_code, 2);
+  EXPECT_EQ(RunCommand({"map", "info", Path("home.map"), "--output", Path("x")}).exit_code, 2);
+}
+
+TEST_F(MapCommandTest, ExtendsTheMapBySessionsThatFindThemselvesInIt) {
+  MakeMap();
+  const int64_t num_first = SummarizeMap(Path("home.map")).submaps[0].num_points;
+  ASSERT_EQ(Replay("room", "second", {"--map", Path("home.map")}).exit_code, 0);
+  const auto segments = Summary("second")["segments"];
+  ASSERT_EQ(segments.size(), 2u);
+  EXPECT_EQ(segments[0]["earlier_session"], true);
+  EXPECT_EQ(segments[1]["world"], 0);
+  EXPECT_LT(LargestDistance("first", "second"), 0.02);
+  ExpectMap("home.map", 2);
+  const MapFileSummary summary = SummarizeMap(Path("home.map"));
+  ASSERT_EQ(summary.submaps.size(), 1u);
+  EXPECT_GT(summary.sessions[1].num_keyframes, 0);
+  EXPECT_LT(summary.submaps[0].num_points, 2 * num_first);
+}
+
+TEST_F(MapCommandTest, LocalizesInAMapThatRemains) {
+  MakeMap();
+  const std::string bytes = ReadFile(Path("home.map"));
+  const CommandOutcome outcome = Replay("room", "today", {"--localize", Path("home.map")});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_TRUE(ReadFile(Path("home.map")) == bytes);
+  const int first = Summary("today")["segments"][1]["joined"]["frame"];
+  EXPECT_GT(first, 0);
+  EXPECT_LT(first, 40);
+  const std::vector<TimedPose> poses = ReadTrajectory(Path("today/trajectory.txt"));
+  ASSERT_EQ(poses.size(), 60u);
+  for (int i = 0; i < 60; ++i) EXPECT_EQ(poses[i].is_estimated, i >= first) << i;
+  EXPECT_LT(LargestDistance("first", "today"), 0.02);
+  // The map may be on a disk that cannot be written.
+  std::filesystem::permissions(Path("home.map"), std::filesystem::perms::owner_read);
+  EXPECT_EQ(Replay("room", "today", {"--localize", Path("home.map")}).exit_code, 0);
+}
+
+TEST_F(MapCommandTest, FailsWhereTheMapIsNeverFound) {
+  MakeMap();
+  RenderSequence(Path("corridor"), {"--scene", "corridor", "--frames", "40", "--width", "320"});
+  const CommandOutcome lost = Replay("corridor", "lost", {"--localize", Path("home.map")});
+  EXPECT_EQ(lost.exit_code, 3);
+  EXPECT_THAT(lost.output, Names("error:", Path("home.map"), "never found"));
+  for (const TimedPose& pose : ReadTrajectory(Path("lost/trajectory.txt"))) {
+    EXPECT_FALSE(pose.is_estimated);
+  }
+  // As a new session it becomes a submap, and a third one finds itself in the right one.
+  EXPECT_EQ(Replay("corridor", "apart", {"--map", Path("home.map")}).exit_code, 0);
+  EXPECT_EQ(SummarizeMap(Path("home.map")).submaps.size(), 2u);
+  EXPECT_EQ(Replay("corridor", "again", {"--map", Path("home.map")}).exit_code, 0);
+  EXPECT_EQ(SummarizeMap(Path("home.map")).submaps.size(), 2u);
+  EXPECT_EQ(Summary("again")["segments"][2]["world"], 1);
+  ExpectMap("home.map", 3);
+}
+
+TEST_F(MapCommandTest, RefusesFilesThatItCannotUse) {
+  WriteText("text.map", "no map\n");
+  for (const char* option : {"--map", "--localize"}) {
+    const CommandOutcome outcome = Replay("room", "out", {option, Path("text.map")});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.output, Names("error:", Path("text.map")));
+  }
+  EXPECT_EQ(ReadFile(Path("text.map")), "no map\n");
+  const CommandOutcome missing = Replay("room", "out", {"--localize", Path("none.map")});
+  EXPECT_EQ(missing.exit_code, 1);
+  EXPECT_THAT(missing.output, Names(Path("none.map"), "does not exist"));
+  EXPECT_EQ(Replay("room", "out", {"--map", Path("a.map"), "--localize", Path("b.map")}).exit_code,
+            2);
+  EXPECT_EQ(Replay("room", "out", {"--map", Path("no/folder/a.map")}).exit_code, 1);
+}
+
+TEST_F(MapCommandTest, RefusesAMapThatAnotherRunExtends) {
+  CommandProcess first(
+      Arguments("room", "first", {"--map", Path("home.map"), "--checkpoint-interval", "0"}));
+  for (int i = 0; i < 60000 && !HasEntry(Path("first/frames.csv")); ++i) usleep(1000);
+  for (const std::vector<std::string>& arguments :
+       {Arguments("room", "second", {"--map", Path("home.map")}),
+        Arguments("room", "third", {"--localize", Path("home.map")}),
+        {"map", "info", Path("home.map")}}) {
+    const CommandOutcome refused = RunCommand(arguments);
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_THAT(refused.output, Names("error:", Path("home.map"), "in use"));
+  }
+  EXPECT_EQ(first.Wait(), 0) << first.output();
+  ExpectMap("home.map", 1);
+}
+
+// Killed at some image, and continued to the map of a run that was not.
+TEST_F(MapCommandTest, KeepsTheMapOfAKilledRunAndResumes) {
+  const std::vector<std::string> arguments =
+      Arguments("room", "out", {"--map", Path("home.map"), "--checkpoint-interval", "0"});
+  {
+    CommandProcess replay(arguments);
+    for (int i = 0; i < 60000; ++i) {
+      usleep(1000);
+      if (HasEntry(Path("out/frames.csv")) && ReadFile(Path("out/frames.csv")).size() > 6000) break;
+    }
+    replay.Signal(SIGKILL);
+    ASSERT_EQ(replay.Wait(), -SIGKILL) << replay.output();
+  }
+  std::filesystem::copy_file(Path("home.map"), Path("copy.map"));
+  if (HasEntry(Path("home.map-journal"))) {
+    std::filesystem::copy_file(Path("home.map-journal"), Path("copy.map-journal"));
+  }
+  ExpectMap("copy.map", 1);
+  EXPECT_FALSE(LoadMap(Path("copy.map")).submaps.empty());
+  const CommandOutcome resumed = RunCommand({"replay", "--resume", Path("out"), "--quiet"});
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.output;
+  MakeMap();  // extends it: the second session
+  ExpectMap("home.map", 2);
+  const CommandOutcome whole = Replay("room", "whole", {"--map", Path("whole.map")});
+  EXPECT_EQ(ReadFile(Path("out/trajectory.txt")), ReadFile(Path("whole/trajectory.txt")));
+}
+
+TEST_F(MapCommandTest, DoesNotResumeIntoAMapOfAnotherRun) {
+  {
+    CommandProcess replay(
+        Arguments("room", "out", {"--map", Path("home.map"), "--checkpoint-interval", "0"}));
+    for (int i = 0; i < 60000 && !HasEntry(Path("out/checkpoint/state.bin")); ++i) usleep(1000);
+    replay.Signal(SIGKILL);
+    ASSERT_EQ(replay.Wait(), -SIGKILL) << replay.output();
+  }
+  ASSERT_EQ(Replay("room", "other", {"--map", Path("home.map")}).exit_code, 0);
+  const std::string bytes = ReadFile(Path("home.map"));
+  const CommandOutcome resumed = RunCommand({"replay", "--resume", Path("out"), "--quiet"});
+  EXPECT_EQ(resumed.exit_code, 1);
+  EXPECT_THAT(resumed.output, Names("error:", Path("home.map"), "another run", "--resume"));
+  EXPECT_TRUE(ReadFile(Path("home.map")) == bytes);
+}
+
+TEST_F(MapCommandTest, FindsItselfWithAnotherCamera) {
+  MakeMap();
+  RenderSequence(Path("large"), {"--scene", "room", "--frames", "60", "--width", "400"});
+  const CommandOutcome outcome = Replay("large", "large_out", {"--localize", Path("home.map")});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_LT(LargestDistance("first", "large_out"), 0.03);
+}
+
+}  // namespace
+}  // namespace msc_vo

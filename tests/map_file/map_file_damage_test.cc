@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "tests/map_file/random_map.h"
+#include "tests/support/message_matchers.h"
+#include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
+#include <sqlite3.h>
+
+#include "msc_vo/map_file/map_reader.h"
+#include "msc_vo/map_file/map_writer.h"
+
+namespace msc_vo {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+class MapFileDamageTest : public TemporaryFolder {
+ protected:
+  void SetUp() override {
+    TemporaryFolder::SetUp();
+    path_ = Path("home.map");
+    SaveMap(path_, AsContents(random_.Make(4)));
+  }
+
+  // Changes the file by SQL, as another program would.
+  void Change(const std::string& sql) const {
+    sqlite3* database = nullptr;
+    ASSERT_EQ(sqlite3_open(path_.c_str(), &database), SQLITE_OK);
+    char* error = nullptr;
+    EXPECT_EQ(sqlite3_exec(database, sql.c_str(), nullptr, nullptr, &error), SQLITE_OK) << error;
+    sqlite3_close(database);
+  }
+  std::string Problem() const {
+    return MessageOf([this] { LoadMap(path_); });
+  }
+  std::string Read() const {
+    std::ifstream file(path_, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  void Write(const std::string& bytes) const {
+    std::ofstream(path_, std::ios::binary | std::ios::trunc) << bytes;
+  }
+
+  RandomMap random_;
+  std::string path_;
+};
+
+TEST_F(MapFileDamageTest, RefusesFilesOfOthers) {
+  EXPECT_THAT(MessageOf([&] { LoadMap(Path("none.map")); }),
+              Names(Path("none.map"), "does not exist"));
+  EXPECT_FALSE(std::filesystem::exists(Path("none.map")));
+  WriteText("text.map", std::string(5000, 'x'));
+  for (const auto& open : {+[](const std::string& path) { LoadMap(path); },
+                           +[](const std::string& path) { MapWriter writer(path); },
+                           +[](const std::string& path) { SummarizeMap(path); }}) {
+    EXPECT_THAT(MessageOf([&] { open(Path("text.map")); }), Names(Path("text.map"), "no map"));
+    EXPECT_THAT(MessageOf([&] { open(Folder()); }), Names(Folder(), "folder"));
+  }
+  EXPECT_EQ(std::filesystem::file_size(Path("text.map")), 5000u);
+  WriteText("note.map", "a note");
+  EXPECT_THAT(MessageOf([&] { MapWriter writer(Path("note.map")); }),
+              Names(Path("note.map"), "no map"));
+  EXPECT_EQ(std::filesystem::file_size(Path("note.map")), 6u);
+  Change("PRAGMA application_id = 7");
+  EXPECT_THAT(Problem(), Names(path_, "no map"));
+  EXPECT_THAT(MessageOf([&] { MapWriter writer(path_); }), Names(path_, "no map"));
+}
+
+// A run that was killed before its first write leaves an empty file.
+TEST_F(MapFileDamageTest, WritesIntoEmptyFileAndSaysThatItIsEmpty) {
+  Write("");
+  EXPECT_THAT(Problem(), Names(path_, "empty"));
+  SaveMap(path_, AsContents(random_.Make(2)));
+  EXPECT_EQ(LoadMap(path_).submaps[0].map.keyframes().size(), 2u);
+}
+
+TEST_F(MapFileDamageTest, RefusesNewerVersion) {
+  Change("PRAGMA user_version = 2");
+  EXPECT_THAT(Problem(), Names(path_, "version 2", "newer msc_vo"));
+  EXPECT_THAT(MessageOf([&] { MapWriter writer(path_); }), Names(path_, "version 2"));
+}
+
+TEST_F(MapFileDamageTest, RefusesOtherTables) {
+  for (const char* sql : {"DROP TABLE loop", "CREATE TABLE other (id)",
+                          "CREATE TRIGGER t AFTER INSERT ON point BEGIN DELETE FROM line; END",
+                          "DROP TABLE point; CREATE VIEW point AS SELECT * FROM line"}) {
+    SaveMap(Path("fresh.map"), AsContents(random_.Make(2)));
+    path_ = Path("fresh.map");
+    Change(sql);
+    EXPECT_THAT(Problem(), Names(path_, "damaged")) << sql;
+    std::filesystem::remove(path_);
+  }
+}
+
+TEST_F(MapFileDamageTest, RefusesRowsThatDoNotFit) {
+  const std::string valid = Read();
+  for (const char* sql : {"UPDATE point SET x = x + 1 WHERE id = 3",
+                          "UPDATE point SET id = 100000 WHERE id = 3",
+                          "UPDATE point SET noise = 'much' WHERE id = 3",
+                          "DELETE FROM point WHERE id = 3",
+                          "DELETE FROM line WHERE id = (SELECT min(id) FROM line)",
+                          "DELETE FROM keyframe WHERE id = 1",
+                          "DELETE FROM features WHERE keyframe = 1",
+                          "DELETE FROM features WHERE keyframe = 3",
+                          "DELETE FROM submap",
+                          "DELETE FROM map",
+                          "DELETE FROM calibration",
+                          "UPDATE keyframe SET submap = 4",
+                          "UPDATE keyframe SET qx = 1e400 WHERE id = 1",
+                          "UPDATE features SET points = substr(points, 1, 30) WHERE keyframe = 1",
+                          "UPDATE features SET points = x'' WHERE keyframe = 2",
+                          "UPDATE features SET lines = zeroblob(length(lines)) WHERE keyframe = 1",
+                          "UPDATE features SET timestamp = timestamp + 1 WHERE keyframe = 1",
+                          "UPDATE session SET first_keyframe = 2",
+                          "UPDATE map SET next_keyframe = 1",
+                          "UPDATE submap SET point_depth_noise = 2.0",
+                          "UPDATE calibration SET fx = fx + 1",
+                          "UPDATE calibration SET lens = 'glass'"}) {
+    Write(valid);
+    Change(sql);
+    EXPECT_THAT(Problem(), Names(path_, "damaged")) << sql;
+    EXPECT_THAT(MessageOf([this] { CheckMap(path_); }), Names(path_, "damaged")) << sql;
+  }
+  Write(valid);
+  EXPECT_THAT(Problem(), IsEmpty());
+}
+
+// Every changed byte is noticed, or belongs to no row.
+TEST_F(MapFileDamageTest, NoticesChangedBytes) {
+  const std::string valid = Read();
+  std::mt19937 random(3);
+  int num_noticed = 0;
+  for (int i = 0; i < 150; ++i) {
+    std::string bytes = valid;
+    bytes[random() % bytes.size()] ^= static_cast<char>(1 + random() % 255);
+    Write(bytes);
+    const std::string problem = Problem();
+    if (!problem.empty()) {
+      ++num_noticed;
+      EXPECT_THAT(problem, Names(path_));
+      continue;
+    }
+    const MapContents loaded = LoadMap(path_);
+    ASSERT_EQ(loaded.submaps.size(), 1u);
+    EXPECT_EQ(loaded.submaps[0].map.keyframes().size(), 4u);
+  }
+  EXPECT_GT(num_noticed, 15);
+}
+
+TEST_F(MapFileDamageTest, RefusesFileTruncatedAnywhere) {
+  const std::string valid = Read();
+  for (size_t size = 1; size < valid.size(); size = size * 9 / 8 + 97) {
+    Write(valid.substr(0, size));
+    EXPECT_THAT(Problem(), Names(path_)) << size;
+    EXPECT_THAT(MessageOf([&] { MapWriter(path_).Load(); }), Names(path_)) << size;
+    EXPECT_TRUE(Read() == valid.substr(0, size)) << size;
+  }
+}
+
+}  // namespace
+}  // namespace msc_vo

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// Files of every version that was ever released can be read (tests/data/maps).
+
+#include <filesystem>
+
+#include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
+
+#include "msc_vo/map_file/map_reader.h"
+#include "msc_vo/map_file/map_writer.h"
+
+namespace msc_vo {
+namespace {
+
+class MapVersionsTest : public TemporaryFolder {
+ protected:
+  // Readers may have to restore the last state of a file, so that they get a copy.
+  std::string Copy(const std::string& name) const {
+    std::filesystem::copy_file(std::filesystem::path(MSC_VO_MAPS_FOLDER) / name, Path(name));
+    return Path(name);
+  }
+};
+
+TEST_F(MapVersionsTest, ReadsVersion1) {
+  const std::string path = Copy("version_1.map");
+  EXPECT_NO_THROW(CheckMap(path));
+  const MapFileSummary summary = SummarizeMap(path);
+  EXPECT_EQ(summary.version, 1);
+  EXPECT_EQ(summary.program, "msc_vo 0.2.0");
+  const MapContents contents = LoadMap(path);
+  ASSERT_EQ(contents.sessions.size(), 2u);
+  EXPECT_EQ(contents.sessions[1].first_keyframe, 3);
+  ASSERT_EQ(contents.submaps.size(), 1u);
+  EXPECT_NEAR(contents.submaps[0].noise_scale.line_pixel, 0.77900126102768, 1e-12);
+  const Map& map = contents.submaps[0].map;
+  ASSERT_EQ(map.keyframes().size(), 7u);
+  EXPECT_EQ(map.points().size(), 283u);
+  EXPECT_EQ(map.lines().size(), 36u);
+  const Keyframe& keyframe = *map.FindKeyframe(1);
+  EXPECT_NEAR(keyframe.cam_from_world.params[1], 0.051933722035206, 1e-12);
+  EXPECT_NEAR(keyframe.cam_from_world.params[6], -0.107344770013162, 1e-12);
+  EXPECT_EQ(keyframe.frame->id, 10);
+  EXPECT_NEAR(keyframe.frame->timestamp, 1.333333, 1e-9);
+  EXPECT_EQ(keyframe.frame->camera.width, 160);
+  ASSERT_TRUE(keyframe.frame->intrinsics);
+  EXPECT_TRUE(keyframe.frame->intrinsics->distortion.IsZero());
+  const PointFeature& feature = map.FindKeyframe(0)->frame->points[0];
+  EXPECT_EQ(feature.pixel, Eigen::Vector2d(0x4b3e / 256.0, 0x2267 / 256.0));
+  EXPECT_EQ(feature.sigma, 0.5);
+  EXPECT_EQ(feature.level, 0);
+  const PointLandmark& point = *map.Find<PointLandmark>(1);
+  EXPECT_NEAR(point.position.z(), 2.616656, 1e-9);
+  EXPECT_EQ(point.num_visible, 47);
+  EXPECT_EQ(point.num_found, 44);
+  const LineLandmark& line = *map.Find<LineLandmark>(292);
+  EXPECT_NEAR(line.segment.end.y(), -0.989018, 1e-9);
+  EXPECT_NEAR(line.depth_offset, 68e-6, 1e-9);
+}
+
+TEST_F(MapVersionsTest, ExtendsVersion1) {
+  const std::string path = Copy("version_1.map");
+  MapWriter writer(path);
+  MapContents contents = writer.Load();
+  contents.sessions.push_back({contents.submaps[0].map.next_keyframe(), "third"});
+  writer.Write(std::move(contents));
+  std::filesystem::copy_file(path, Path("copy.map"));
+  EXPECT_EQ(LoadMap(Path("copy.map")).sessions.size(), 3u);
+}
+
+}  // namespace
+}  // namespace msc_vo

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include <optional>
+#include <utility>
+
+#include "tests/support/rendered_images.h"
+#include <gmock/gmock.h>
+
+#include "msc_vo/map/map_validation.h"
+#include "msc_vo/odometry/localization.h"
+
+namespace msc_vo {
+namespace {
+
+// A map of one run, and a second run in it.
+class SessionsTest : public RoomTest {
+ protected:
+  static constexpr int kFirst = 10;  // image of the second session
+
+  static OdometryOptions Options() {
+    OdometryOptions options;
+    options.threads = 1;
+    options.tracking.segments.search_interval = 0.1;
+    return options;
+  }
+
+  static void SetUpTestSuite() {
+    RoomTest::SetUpTestSuite();
+    Odometry odometry(Options(), camera_, LensDistortion());
+    for (const RgbdImage& image : *images_) odometry.Process(image);
+    MapContents contents = *odometry.ShareMaps("first");
+    first_ = new MapContents(std::move(contents));
+    first_result_ = new OdometryResult(odometry.Finish());
+  }
+  static void TearDownTestSuite() {
+    delete first_;
+    delete first_result_;
+    RoomTest::TearDownTestSuite();
+  }
+  static MapContents Map() {
+    MapContents copy;
+    copy.sessions = first_->sessions;
+    for (SavedSubMap& submap : first_->submaps) {
+      copy.submaps.push_back({submap.id, submap.map.Share(), submap.axes, submap.noise_scale});
+    }
+    return copy;
+  }
+
+  // Runs over the images in the map of the first run, beginning at `time` (seconds).
+  static OdometryResult Run(double time, Odometry* odometry) {
+    odometry->SetMap(Map());
+    for (int i = kFirst; i < kNumFrames; ++i) {
+      RgbdImage image = (*images_)[i];
+      image.id = i - kFirst;
+      image.timestamp = time + image.id / 30.0;
+      odometry->Process(image);
+    }
+    return odometry->Finish();
+  }
+  // Largest distance of a camera to that of the first run, metres.
+  static double LargestDistance(const OdometryResult& result, size_t first = 0) {
+    double largest = 0.0;
+    for (size_t i = first; i < result.frames.size(); ++i) {
+      const Rigid3& then = first_result_->frames[i + kFirst].cam_from_world;
+      const Rigid3& now = result.frames[i].cam_from_world;
+      largest = std::max(largest, (then.OriginInSource() - now.OriginInSource()).norm());
+    }
+    return largest;
+  }
+
+  static inline MapContents* first_ = nullptr;
+  static inline OdometryResult* first_result_ = nullptr;
+};
+
+// At the same time stamps as the first run, but at the other end of its path: nothing can be
+// concluded from that.
+TEST_F(SessionsTest, MayBeElsewhereAtTheTimesOfTheFirstRun) {
+  for (const double offset : {0.0, 0.011, 0.022}) {
+    Odometry odometry(Options(), camera_, LensDistortion());
+    odometry.SetMap(Map());
+    for (int i = 0; i < kNumFrames; ++i) {
+      RgbdImage image = (*images_)[kNumFrames - 1 - i];
+      image.id = i;
+      image.timestamp = (*images_)[i].timestamp + offset;
+      odometry.Process(image);
+    }
+    const OdometryResult result = odometry.Finish();
+    ASSERT_EQ(result.segments.size(), 2u);
+    EXPECT_EQ(result.segments[1].world, 0) << offset;
+  }
+}
+
+// Time stamps of another session mean nothing: earlier, the same ones, later.
+TEST_F(SessionsTest, FindsItselfInTheMapWhateverTheClockSays) {
+  for (const double time : {-1000.0, 0.0, 0.33, 1e9}) {
+    Odometry odometry(Options(), camera_, LensDistortion());
+    const OdometryResult result = Run(time, &odometry);
+    ASSERT_EQ(result.segments.size(), 2u) << time;
+    EXPECT_TRUE(result.segments[0].is_earlier_session);
+    EXPECT_FALSE(result.segments[1].is_earlier_session);
+    EXPECT_EQ(result.segments[0].num_estimated, 0);
+    EXPECT_EQ(result.segments[1].num_estimated, kNumFrames - kFirst);
+    EXPECT_EQ(result.segments[1].world, 0) << time;
+    EXPECT_EQ(result.map_world, 0);
+    ASSERT_TRUE(FirstLocalizedFrame(result)) << time;
+    EXPECT_LT(*FirstLocalizedFrame(result), 25);
+    EXPECT_LT(LargestDistance(result), 0.01) << time;  // measured: 4 mm
+    for (const TimedPose& keyframe : result.keyframes) {
+      EXPECT_GE(keyframe.timestamp, time);
+      EXPECT_LE(keyframe.timestamp, time + 2.0);
+    }
+  }
+}
+
+TEST_F(SessionsTest, ExtendsTheMap) {
+  Odometry odometry(Options(), camera_, LensDistortion());
+  Run(100.0, &odometry);
+  const std::optional<MapContents> both = odometry.ShareMaps("second");
+  ASSERT_TRUE(both);
+  ASSERT_EQ(both->sessions.size(), 2u);
+  EXPECT_EQ(both->sessions[0].name, "first");
+  EXPECT_EQ(both->sessions[1].first_keyframe, first_->submaps[0].map.next_keyframe());
+  ASSERT_EQ(both->submaps.size(), 1u);
+  const msc_vo::Map& map = both->submaps[0].map;
+  EXPECT_EQ(FirstViolation(map), "");
+  bool observes_old_landmark = false;
+  for (const auto& [id, point] : map.points()) {
+    observes_old_landmark |= map.IsOfEarlierSession(point.observations.front().keyframe) &&
+                             !map.IsOfEarlierSession(point.observations.back().keyframe);
+  }
+  EXPECT_TRUE(observes_old_landmark);
+  EXPECT_FALSE(map.IsOfEarlierSession(map.keyframes().back().first));
+}
+
+TEST_F(SessionsTest, KeepsPosesInTheMapOnly) {
+  Odometry odometry(Options(), camera_, LensDistortion());
+  OdometryResult result = Run(100.0, &odometry);
+  const int first = FirstLocalizedFrame(result).value();
+  KeepLocalizedPoses(&result);
+  EXPECT_GT(first, 0);
+  for (int i = 0; i < kNumFrames - kFirst; ++i) {
+    EXPECT_EQ(IsEstimated(result.frames[i].status), i >= first) << i;
+    EXPECT_EQ(result.frames[i].world, i >= first ? 0 : kNoSegment) << i;
+  }
+  EXPECT_LT(LargestDistance(result, static_cast<size_t>(first)), 0.01);
+  EXPECT_EQ(result.segments[1].num_estimated, kNumFrames - kFirst - first);
+}
+
+TEST_F(SessionsTest, KeepsNoPoseOfAnUnknownPlace) {
+  SyntheticSequenceOptions other = RoomOptions();
+  other.seed = 7;
+  Odometry odometry(Options(), camera_, LensDistortion());
+  odometry.SetMap(Map());
+  for (const RgbdImage& image : RenderImages(other, 30)) {
+    const FrameResult frame = odometry.Process(image);
+    EXPECT_EQ(frame.world, 1);
+    EXPECT_FALSE(IsEstimated(KeepLocalizedPose(1, frame).status));
+  }
+  OdometryResult result = odometry.Finish();
+  EXPECT_EQ(result.map_world, 1);
+  EXPECT_FALSE(FirstLocalizedFrame(result));
+  EXPECT_FALSE(result.points.empty());
+  const std::optional<MapContents> both = odometry.ShareMaps("second");
+  ASSERT_TRUE(both);
+  EXPECT_EQ(both->submaps.size(), 2u);
+  KeepLocalizedPoses(&result);
+  for (const FrameResult& frame : result.frames) EXPECT_FALSE(IsEstimated(frame.status));
+  EXPECT_TRUE(result.points.empty());
+}
+
+// The same scene, seen with another focal length and image size.
+TEST_F(SessionsTest, FindsItselfWithAnotherCamera) {
+  SyntheticSequenceOptions other = RoomOptions();
+  other.width = 400;
+  other.height = 300;
+  const SyntheticSequence sequence(other);
+  Odometry odometry(Options(), sequence.camera(), LensDistortion());
+  odometry.SetMap(Map());
+  for (const RgbdImage& image : RenderImages(other, kNumFrames)) odometry.Process(image);
+  const OdometryResult result = odometry.Finish();
+  ASSERT_TRUE(FirstLocalizedFrame(result));
+  double largest = 0.0;
+  for (int i = 0; i < kNumFrames; ++i) {
+    largest = std::max(largest, (first_result_->frames[i].cam_from_world.OriginInSource() -
+                                 result.frames[i].cam_from_world.OriginInSource())
+                                    .norm());
+  }
+  EXPECT_LT(largest, 0.02);
+}
+
+TEST_F(SessionsTest, RefusesAMapAfterTheFirstImage) {
+  Odometry odometry(Options(), camera_, LensDistortion());
+  odometry.Process(images_->front());
+  EXPECT_THROW(odometry.SetMap(Map()), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace msc_vo
