@@ -20,7 +20,7 @@ LAYERS = [
     ["frame", "factors", "evaluation", "sensor", "synthetic/scene", "report"],
     ["bundle_adjustment"],
     ["map", "synthetic/window"],
-    ["matching", "structure", "features"],
+    ["matching", "structure", "features", "place_recognition"],
     ["pose_estimation", "self_calibration"],
     ["tracking", "mapping", "logging"],  # the solver below needs no spdlog
     ["odometry", "datasets", "inertial"],

@@ -14,7 +14,8 @@ namespace msc_vo {
 namespace {
 
 constexpr int kMostImages = 400;
-constexpr int kViewStep = 5;  // images per view in which returns are searched: half a second
+constexpr int kViewStep = 5;       // images per view in which returns are searched: half a second
+constexpr int kMinOldPoints = 10;  // of an earlier visit, by which a frame is back
 
 SyntheticSequenceOptions SequenceOptionsOf(const LoopWorldOptions& options) {
   SyntheticSequenceOptions sequence;
@@ -66,9 +67,30 @@ std::vector<TimedPose> LoopWorld::TruePoses() const {
   return poses;
 }
 
-std::vector<ClaimedPlace> ClaimsOf(const OdometryResult& /*result*/) { return {}; }
+std::vector<ClaimedPlace> ClaimsOf(const OdometryResult& result) {
+  std::vector<ClaimedPlace> claims;
+  for (const Loop& loop : result.loops) {
+    if (loop.reference < 0) continue;
+    const FrameResult& older = result.frames[loop.reference];
+    const FrameResult& newer = result.frames[loop.frame];
+    claims.push_back({older.id, newer.id, older.cam_from_world * newer.cam_from_world.Inverse()});
+  }
+  return claims;
+}
 
-LoopScore ScoreClaims(const LoopWorld& world, const std::vector<ClaimedPlace>& claims) {
+std::vector<int64_t> OriginsOf(const TrackedImage& tracked) {
+  const Map& map = tracked.map.map;
+  std::vector<int64_t> origins;
+  for (const auto& match : tracked.tracked.matches.points) {
+    const PointLandmark* point = map.Find<PointLandmark>(match.id);
+    if (point == nullptr) continue;
+    origins.push_back(map.FindKeyframe(point->observations.front().keyframe)->frame->id);
+  }
+  return origins;
+}
+
+LoopScore ScoreClaims(const LoopWorld& world, const std::vector<ClaimedPlace>& claims,
+                      const PointOrigins& origins) {
   std::vector<SurfaceView> views;
   for (int i = 0; i < world.num_images(); i += kViewStep) {
     views.push_back(world.sequence().SurfacesAt(i));
@@ -87,6 +109,15 @@ LoopScore ScoreClaims(const LoopWorld& world, const std::vector<ClaimedPlace>& c
       const int first = (returns[i].first - 1) * kViewStep;
       const int end = (returns[i].last + 1) * kViewStep;
       if (claim.newer > first && claim.newer < end) is_found[i] = true;
+    }
+  }
+  for (size_t i = 0; i < returns.size(); ++i) {
+    const int64_t between = kViewStep * (returns[i].earlier + returns[i].first) / 2;
+    const int end = std::min<int>(kViewStep * returns[i].last + 1, origins.size());
+    for (int frame = kViewStep * returns[i].first; frame < end; ++frame) {
+      const auto num_old = std::count_if(origins[frame].begin(), origins[frame].end(),
+                                         [between](int64_t id) { return id < between; });
+      if (num_old >= kMinOldPoints) is_found[i] = true;
     }
   }
   score.num_found = static_cast<int>(std::count(is_found.begin(), is_found.end(), true));

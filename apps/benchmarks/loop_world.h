@@ -50,15 +50,24 @@ struct ClaimedPlace {
 /// The loops of a run.
 std::vector<ClaimedPlace> ClaimsOf(const OdometryResult& result);
 
+/// For every frame, the frames in which the map points that it was tracked with were seen first.
+using PointOrigins = std::vector<std::vector<int64_t>>;
+
+/// The entry of a frame.
+std::vector<int64_t> OriginsOf(const TrackedImage& tracked);
+
 struct LoopScore {
   int num_claims = 0;
   /// Claims of frames that share no surface, or of a relative pose that is wrong by more than half
   /// a metre or 15 degrees.
   int num_false = 0;
   int num_returns = 0;  ///< of the truth (FindReturns)
-  int num_found = 0;    ///< returns in which a claim that is not false has its newer frame
+  /// Returns in which a claim that is not false has its newer frame, or in which a frame is tracked
+  /// with at least ten points of the earlier visit.
+  int num_found = 0;
 };
 
-LoopScore ScoreClaims(const LoopWorld& world, const std::vector<ClaimedPlace>& claims);
+LoopScore ScoreClaims(const LoopWorld& world, const std::vector<ClaimedPlace>& claims,
+                      const PointOrigins& origins = {});
 
 }  // namespace msc_vo

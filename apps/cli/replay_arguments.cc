@@ -35,6 +35,8 @@ void AddShortcuts(CLI::App* command, ReplayArguments* arguments) {
   command->add_flag("--no-perpendicular", arguments->no_perpendicular,
                     "No pairs of perpendicular map lines");
   command->add_flag("--no-manhattan", arguments->no_manhattan, "No Manhattan axes");
+  command->add_flag("--no-loops", arguments->no_loops,
+                    "Do not correct the map when the camera returns to a place");
   command->add_flag("--realtime", arguments->realtime,
                     "Process images at the pace of their time stamps, drop late images, and never "
                     "wait for a late map");
@@ -124,6 +126,7 @@ ConfigurationArguments WithShortcuts(const ReplayArguments& arguments) {
   if (arguments.no_parallel) settings.push_back("mapping.pairs.parallel=false");
   if (arguments.no_perpendicular) settings.push_back("mapping.pairs.perpendicular=false");
   if (arguments.no_manhattan) settings.push_back("mapping.axes.enabled=false");
+  if (arguments.no_loops) settings.push_back("close_loops=false");
   // A live camera does not wait.
   if (arguments.realtime || IsLiveCamera(arguments.sequence.directory)) {
     settings.push_back("realtime=true");

@@ -37,6 +37,7 @@ struct ReplayArguments {
   bool no_parallel = false;
   bool no_perpendicular = false;
   bool no_manhattan = false;
+  bool no_loops = false;
   bool realtime = false;
   bool no_check = false;
   bool print_config = false;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -156,6 +157,11 @@ RgbdDecoder OpenChecked(const ReplayArguments& arguments, const Configuration& c
   return decoder;
 }
 
+// Seconds between two saves of the map. In real time, images do not wait for the disk.
+double MapInterval(const ReplayArguments& arguments, bool realtime) {
+  return realtime ? std::numeric_limits<double>::infinity() : arguments.checkpoint_interval;
+}
+
 // Runs the odometry. `resumed`: null for a new run.
 int Run(const ReplayArguments& arguments, const Configuration& configuration, Resumed* resumed) {
   std::vector<std::string> check_warnings;
@@ -171,9 +177,10 @@ int Run(const ReplayArguments& arguments, const Configuration& configuration, Re
   RunFiles files(output, sequence);
   ReplayViews views(arguments.view, decoder, configuration, arguments.run.max_frames);
   const RunIdentity identity = Identify(arguments, configuration, decoder, resumed);
-  RunMap map(arguments.map, identity.session, arguments.checkpoint_interval, resumed != nullptr);
+  const bool realtime = configuration.odometry.snapshots.realtime;
+  RunMap map(arguments.map, identity.session, MapInterval(arguments, realtime), resumed != nullptr);
   std::unique_ptr<Checkpoints> checkpoints;  // none in real time, which cannot be repeated
-  if (!configuration.odometry.snapshots.realtime) {
+  if (!realtime) {
     checkpoints = MakeCheckpoints(identity, output, arguments.checkpoint_interval, resumed,
                                   {&views, gravity.get()});
   }

@@ -100,14 +100,14 @@ class PyOdometry {
   }
 
   void ReadMap(const py::object& file) {
-    const std::string path = PathArgument(file);
-    Alone([&] { odometry_->SetMap(LoadMap(path)); });
+    Alone([&, path = PathArgument(file)] { odometry_->SetMap(LoadMap(path)); });
   }
 
   void WriteMap(const py::object& file, const std::string& session) {
     const std::string path = PathArgument(file);
     auto maps = Alone([&] { return odometry_->ShareMaps(session); });
-    if (maps) SaveMap(path, std::move(*maps));
+    if (!maps) throw std::runtime_error(path + ": not written, since a keyframe step has failed");
+    SaveMap(path, std::move(*maps));
   }
 
   void SetTrackingObserver(const py::object& callback) {

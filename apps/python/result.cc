@@ -128,6 +128,20 @@ py::list SegmentsOf(const OdometryResult& result) {
   return segments;
 }
 
+py::list LoopsOf(const OdometryResult& result) {
+  py::list loops;
+  for (const Loop& loop : result.loops) {
+    py::dict entry;
+    entry["frame"] = loop.frame;
+    entry["reference"] = loop.reference;
+    entry["num_keyframes"] = loop.num_keyframes;
+    entry["rotation"] = loop.rotation;
+    entry["translation"] = loop.translation;
+    loops.append(entry);
+  }
+  return loops;
+}
+
 py::object WorldFromAxes(const OdometryResult& result) {
   if (result.axes.state == AxesState::kNone) return py::none();
   return py::cast(Eigen::Matrix3d(result.axes.world_from_axes.toRotationMatrix()));
@@ -219,6 +233,11 @@ void BindResult(py::module_* module) {
       .def_property_readonly("segments", &SegmentsOf,
                              "One dict per segment: first_frame, last_frame, num_estimated, world, "
                              "is_earlier_session.")
+      .def_property_readonly(
+          "loops", &LoopsOf,
+          "One dict per closed loop: frame and reference, indices of the frames that show one "
+          "place, num_keyframes, and the correction at `frame`: rotation (radians), translation "
+          "(metres).")
       .def_property_readonly("first_localized_frame", &FirstLocalizedFrame,
                              "Index of the first frame whose pose is in the world of a map that "
                              "was loaded; None if there is none.")

@@ -92,12 +92,12 @@ void FieldsOf(Archive& archive, DepthCamera& value) {
 
 template <typename Archive>
 void FieldsOf(Archive& archive, OdometryResult& value) {
-  auto& [frames, segments, map_world, keyframes, points, lines, axes, noise_scale, depth_sensor,
-         readout_time, readout_time_sigma, calibration, intrinsics, depth_camera, extra_blocks,
-         last_window, num_late_maps] = value;
-  AllFieldsOf(archive, frames, segments, map_world, keyframes, points, lines, axes, noise_scale,
-              depth_sensor, readout_time, readout_time_sigma, calibration, intrinsics, depth_camera,
-              extra_blocks, last_window, num_late_maps);
+  auto& [frames, segments, loops, map_world, keyframes, points, lines, axes, noise_scale,
+         depth_sensor, readout_time, readout_time_sigma, calibration, intrinsics, depth_camera,
+         extra_blocks, last_window, num_late_maps] = value;
+  AllFieldsOf(archive, frames, segments, loops, map_world, keyframes, points, lines, axes,
+              noise_scale, depth_sensor, readout_time, readout_time_sigma, calibration, intrinsics,
+              depth_camera, extra_blocks, last_window, num_late_maps);
 }
 
 // Errors of a trajectory.

@@ -27,4 +27,19 @@ PoseCovariance CameraCovariance(const Rigid3& cam_from_world, const PoseCovarian
   return jacobian * covariance * jacobian.transpose();
 }
 
+PoseCovariance CovarianceOfCamera(const Rigid3& cam_from_world, const PoseCovariance& camera) {
+  PoseCovariance jacobian = PoseCovariance::Identity();
+  jacobian.bottomLeftCorner<3, 3>() = -Skew(cam_from_world.translation());
+  return jacobian * camera * jacobian.transpose();
+}
+
+PoseCovariance TransportCovariance(const Rigid3& b_from_a, const PoseCovariance& covariance) {
+  const Eigen::Matrix3d rotation = b_from_a.rotation().toRotationMatrix();
+  PoseCovariance adjoint = PoseCovariance::Zero();
+  adjoint.topLeftCorner<3, 3>() = rotation;
+  adjoint.bottomRightCorner<3, 3>() = rotation;
+  adjoint.bottomLeftCorner<3, 3>() = Skew(b_from_a.translation()) * rotation;
+  return adjoint * covariance * adjoint.transpose();
+}
+
 }  // namespace msc_vo

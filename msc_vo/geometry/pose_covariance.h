@@ -22,5 +22,10 @@ PoseCovariance ComposeCovariances(const Rigid3& c_from_b, const PoseCovariance& 
 /// camera's position. The translation of cam_from_world is the position of the world's origin
 /// instead, on which the rotation acts with a lever arm.
 PoseCovariance CameraCovariance(const Rigid3& cam_from_world, const PoseCovariance& covariance);
+/// The inverse of CameraCovariance(): the covariance of cam_from_world.
+PoseCovariance CovarianceOfCamera(const Rigid3& cam_from_world, const PoseCovariance& camera);
+
+/// Covariance of a motion in frame b (rotation vector, then translation), given that in frame a.
+PoseCovariance TransportCovariance(const Rigid3& b_from_a, const PoseCovariance& covariance);
 
 }  // namespace msc_vo

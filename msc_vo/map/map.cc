@@ -43,6 +43,7 @@ Map Map::Share() {
     map.Table<L>() = Table<L>().Share();
   });
   map.relative_poses_ = relative_poses_.Share();
+  map.steps_ = steps_.Share();
   map.next_keyframe_ = next_keyframe_;
   map.next_landmark_ = next_landmark_;
   map.session_begin_ = session_begin_;
@@ -69,6 +70,7 @@ void Map::Merge(const Map& other) {
     Table<L>().Merge(other.landmarks<L>());
   });
   relative_poses_.Merge(other.relative_poses_);
+  steps_.Merge(other.steps_);
   next_keyframe_ = std::max(next_keyframe_, other.next_keyframe_);
   next_landmark_ = std::max(next_landmark_, other.next_landmark_);
   session_begin_ = std::max(session_begin_, other.session_begin_);
@@ -107,6 +109,7 @@ KeyframeId Map::AddKeyframe(std::shared_ptr<const Frame> frame, const Rigid3& ca
   keyframe.frame = std::move(frame);
   keyframes_.Append(id, std::move(keyframe));
   relative_poses_.Append(id, {});
+  steps_.Append(id, PoseCovariance::Zero());
   return id;
 }
 
@@ -164,6 +167,14 @@ void Map::SetFrame(KeyframeId keyframe, std::shared_ptr<const Frame> frame) {
 
 void Map::SetPose(KeyframeId keyframe, const Rigid3& cam_from_world) {
   keyframes_.FindToChange(keyframe)->cam_from_world = cam_from_world;
+}
+
+void Map::SetStepCovariance(KeyframeId keyframe, const PoseCovariance& covariance) {
+  *steps_.FindToChange(keyframe) = covariance;
+}
+
+const PoseCovariance* Map::StepCovariance(KeyframeId keyframe) const {
+  return steps_.Find(keyframe);
 }
 
 std::vector<Map::Covisible> Map::FindCovisible(KeyframeId keyframe) const {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "msc_vo/geometry/pose_covariance.h"
 #include "msc_vo/map/keyframe.h"
 #include "msc_vo/map/landmark_kinds.h"
 #include "msc_vo/map/shared_table.h"
@@ -114,6 +115,11 @@ class Map {
   /// SetFrame() replaces the frame by one with the same features in the same order.
   void SetFrame(KeyframeId keyframe, std::shared_ptr<const Frame> frame);
   void SetPose(KeyframeId keyframe, const Rigid3& cam_from_world);
+  /// Sets the covariance of the keyframe's pose relative to the keyframes before it, as odometry
+  /// has measured it: of the camera in its own frame (CameraCovariance). It outlives the keyframe.
+  void SetStepCovariance(KeyframeId keyframe, const PoseCovariance& covariance);
+  /// nullptr if the map does not know the keyframe. Zero if it was not set.
+  const PoseCovariance* StepCovariance(KeyframeId keyframe) const;
   template <typename L>
   void SetGeometry(LandmarkId landmark, const typename L::Geometry& geometry) {
     Table<L>().FindToChange(landmark)->SetGeometry(geometry);
@@ -142,9 +148,10 @@ class Map {
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [keyframes, landmarks, relative_poses, next_keyframe, next_landmark, session_begin] =
-        *this;  // all members, or it does not compile
-    archive(keyframes, landmarks, relative_poses, next_keyframe, next_landmark, session_begin);
+    auto& [keyframes, landmarks, relative_poses, steps, next_keyframe, next_landmark,
+           session_begin] = *this;  // all members, or it does not compile
+    archive(keyframes, landmarks, relative_poses, steps, next_keyframe, next_landmark,
+            session_begin);
   }
 
  private:
@@ -172,6 +179,7 @@ class Map {
   KeyframeTable keyframes_;
   ByKind<LandmarkTable> landmarks_;
   SharedTable<RelativePose, 16> relative_poses_;  // of all keyframes ever added
+  SharedTable<PoseCovariance, 16> steps_;         // of all keyframes ever added
   KeyframeId next_keyframe_ = 0;
   LandmarkId next_landmark_ = 0;
   KeyframeId session_begin_ = 0;

@@ -7,10 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "msc_vo/geometry/pose_covariance.h"
-#include "msc_vo/geometry/rigid3.h"
 #include "msc_vo/map/map.h"
 #include "msc_vo/map/noise_scale.h"
+#include "msc_vo/map/pose_graph_edge.h"
 #include "msc_vo/map/snapshot.h"
 
 namespace msc_vo {
@@ -36,26 +35,12 @@ struct SavedSubMap {
   NoiseScale noise_scale;
 };
 
-/// A measured transform between two keyframes that closes a loop.
-struct LoopEdge {
-  KeyframeId from = kNoId;
-  KeyframeId to = kNoId;
-  Rigid3 to_from_from;  ///< camera to camera
-  /// Of `to_from_from`, in the tangent of Rigid3Manifold.
-  PoseCovariance covariance = PoseCovariance::Zero();
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, from, to, to_from_from, covariance);
-  }
-};
-
 /// All that is kept of the runs that have built a map. Ids of keyframes and landmarks are unique
 /// over all submaps. Calibrations belong to the frames of the keyframes.
 struct MapContents {
   std::vector<MapSession> sessions;  ///< in order of their keyframes; at least one
   std::vector<SavedSubMap> submaps;  ///< by ascending id
-  std::vector<LoopEdge> loops;
+  std::vector<PoseGraphEdge> loops;  ///< that were closed
 };
 
 }  // namespace msc_vo

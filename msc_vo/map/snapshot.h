@@ -33,6 +33,7 @@ struct MapSnapshot {
   Map map;
   int world = 0;  ///< number of the segment that began the world of the map
   KeyframeId newest_keyframe = kNoId;
+  int num_loops = 0;          ///< closed in the run so far
   NoiseScale noise_scale;     ///< self-calibrated
   double readout_time = 0.0;  ///< seconds, of the rolling-shutter compensation of its keyframes
   /// Calibration of its keyframes, which frames must have that are tracked in it; null: unknown.
@@ -50,8 +51,9 @@ struct MapSnapshot {
 
   template <typename Archive>
   void Serialize(Archive& archive) {
-    archive.Fields(*this, map, world, newest_keyframe, noise_scale, readout_time, intrinsics, axes,
-                   needs_axes, calibration_is_settled, inactive_maps, extra_blocks);
+    archive.Fields(*this, map, world, newest_keyframe, num_loops, noise_scale, readout_time,
+                   intrinsics, axes, needs_axes, calibration_is_settled, inactive_maps,
+                   extra_blocks);
   }
 };
 using MapSnapshotPtr = std::shared_ptr<const MapSnapshot>;

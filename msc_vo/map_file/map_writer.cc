@@ -21,6 +21,12 @@ namespace msc_vo {
 
 namespace {
 
+BlobWriter EncodeCovariance(const PoseCovariance& covariance) {
+  BlobWriter blob;
+  for (const double value : covariance.reshaped()) blob.F64(value);
+  return blob;
+}
+
 const Keyframe* FindKeyframe(const MapContents& contents, KeyframeId id) {
   for (const SavedSubMap& submap : contents.submaps) {
     if (const Keyframe* found = submap.map.FindKeyframe(id)) return found;
@@ -77,20 +83,20 @@ class TableWriter {
  private:
   void Erase();
   void WriteMap(int submap, const Map& before, const Map& now);
-  void WriteKeyframe(int submap, const Keyframe& keyframe);
-  void WriteFeatures(const Keyframe& keyframe);
+  void WriteKeyframe(int submap, const Map& map, const Keyframe& keyframe);
+  void WriteFeatures(const Map& map, const Keyframe& keyframe);
   template <typename L>
   void WriteLandmark(int submap, const L& landmark, SqliteStatement* upsert);
   void WriteSmallTables();
   void WriteSubMap(const SavedSubMap& submap);
-  void WriteLoop(int64_t id, const LoopEdge& loop);
+  void WriteLoop(int64_t id, const PoseGraphEdge& loop);
 
   const SqliteDatabase& database_;
   const MapContents& before_;
   const MapContents& now_;
   CalibrationRows* calibrations_;
   SqliteStatement keyframe_ = PrepareUpsert(database_, "keyframe", 10);
-  SqliteStatement features_ = PrepareUpsert(database_, "features", 10);
+  SqliteStatement features_ = PrepareUpsert(database_, "features", 11);
 };
 
 // Deletes what is in no map any more.
@@ -124,7 +130,8 @@ void TableWriter::Erase() {
 void TableWriter::WriteMap(int submap, const Map& before, const Map& now) {
   const auto keep = [](int64_t /*id*/) {};
   now.keyframes().VisitChanges(
-      before.keyframes(), [&](const auto& entry) { WriteKeyframe(submap, entry.second); }, keep);
+      before.keyframes(), [&](const auto& entry) { WriteKeyframe(submap, now, entry.second); },
+      keep);
   ForEachLandmarkKind([&](auto kind) {
     using L = typename decltype(kind)::Landmark;
     SqliteStatement upsert =
@@ -135,7 +142,7 @@ void TableWriter::WriteMap(int submap, const Map& before, const Map& now) {
   });
 }
 
-void TableWriter::WriteKeyframe(int submap, const Keyframe& keyframe) {
+void TableWriter::WriteKeyframe(int submap, const Map& map, const Keyframe& keyframe) {
   RowWriter row(&keyframe_);
   row.Integer(keyframe.id).Integer(submap);
   AddPose(keyframe.cam_from_world, &row);
@@ -143,10 +150,10 @@ void TableWriter::WriteKeyframe(int submap, const Keyframe& keyframe) {
   const Keyframe* const was = FindKeyframe(before_, keyframe.id);
   const bool has_same_features =
       was != nullptr && was->frame == keyframe.frame && was->landmarks == keyframe.landmarks;
-  if (!has_same_features) WriteFeatures(keyframe);
+  if (!has_same_features) WriteFeatures(map, keyframe);
 }
 
-void TableWriter::WriteFeatures(const Keyframe& keyframe) {
+void TableWriter::WriteFeatures(const Map& map, const Keyframe& keyframe) {
   const Frame& frame = *keyframe.frame;
   const FeatureBlobs blobs = EncodeFeatures(keyframe);
   RowWriter row(&features_);
@@ -156,7 +163,8 @@ void TableWriter::WriteFeatures(const Keyframe& keyframe) {
     using L = typename decltype(kind)::Landmark;
     row.Blob(blobs.features.Of<L>()).Blob(blobs.landmarks.Of<L>());
   });
-  row.Blob(blobs.depth_ranges).Execute();
+  const BlobWriter step = EncodeCovariance(*map.StepCovariance(keyframe.id));
+  row.Blob(blobs.depth_ranges).Blob(step.bytes()).Execute();
 }
 
 template <typename L>
@@ -193,7 +201,7 @@ void TableWriter::WriteSmallTables() {
     RowWriter(&insert).Integer(++id).Integer(session.first_keyframe).Text(session.name).Execute();
   }
   id = 0;
-  for (const LoopEdge& loop : now_.loops) WriteLoop(++id, loop);
+  for (const PoseGraphEdge& loop : now_.loops) WriteLoop(++id, loop);
 }
 
 void TableWriter::WriteSubMap(const SavedSubMap& submap) {
@@ -210,13 +218,12 @@ void TableWriter::WriteSubMap(const SavedSubMap& submap) {
   row.Real(noise.point_depth).Real(noise.line_pixel).Real(noise.line_depth).Execute();
 }
 
-void TableWriter::WriteLoop(int64_t id, const LoopEdge& loop) {
+void TableWriter::WriteLoop(int64_t id, const PoseGraphEdge& loop) {
   SqliteStatement insert = PrepareUpsert(database_, "loop", 12);
   RowWriter row(&insert);
   row.Integer(id).Integer(loop.from).Integer(loop.to);
   AddPose(loop.to_from_from, &row);
-  BlobWriter covariance;
-  for (const double value : loop.covariance.reshaped()) covariance.F64(value);
+  const BlobWriter covariance = EncodeCovariance(loop.covariance);
   row.Blob(covariance.bytes()).Execute();
 }
 

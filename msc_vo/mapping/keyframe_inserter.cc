@@ -5,6 +5,9 @@
 
 #include <utility>
 
+#include "msc_vo/geometry/angles.h"
+#include "msc_vo/geometry/pose_covariance.h"
+
 namespace msc_vo {
 
 namespace {
@@ -20,6 +23,18 @@ void AddObservations(const KeyframePacket& packet, KeyframeId keyframe, Map* map
       map->CountTracking<L>(id, count.num_visible, count.num_found);
     }
   });
+}
+
+// Of a keyframe relative to those before it. Alignment alone links the first keyframe of a map to
+// the keyframes of others.
+PoseCovariance StepCovariance(const KeyframePacket& packet, const Rigid3& cam_from_world) {
+  if (packet.reference != kNoId) return CameraCovariance(cam_from_world, packet.covariance);
+  constexpr double kSigma = 0.01;  // metres
+  constexpr double kRotationSigma = DegreesToRadians(0.3);
+  PoseCovariance covariance = PoseCovariance::Zero();
+  covariance.diagonal().head<3>().setConstant(kRotationSigma * kRotationSigma);
+  covariance.diagonal().tail<3>().setConstant(kSigma * kSigma);
+  return covariance;
 }
 
 }  // namespace
@@ -40,11 +55,12 @@ void KeyframeInserter::Insert(const KeyframePacket& packet, std::shared_ptr<cons
     cam_from_world = cam_from_world * map->CamFromWorld(packet.reference);
   }
   newest_ = map->AddKeyframe(std::move(frame), cam_from_world, packet.id);
+  map->SetStepCovariance(newest_, StepCovariance(packet, cam_from_world));
   summary->keyframe = newest_;
   summary->submap = atlas->current().id;
   AddObservations(packet, newest_, map);
-  if (packet.in_inactive_map) {
-    joiner_.Add(newest_, packet.covariance, *packet.in_inactive_map);
+  if (packet.revisit && !map->KnowsKeyframe(packet.revisit->reference)) {
+    joiner_.Add(newest_, packet.covariance, *packet.revisit);
     summary->join = joiner_.TryJoin(atlas);
   }
   summary->num_refused_joins = joiner_.num_refused();

@@ -15,7 +15,7 @@
 #include "msc_vo/map/landmark.h"
 #include "msc_vo/map/last_tracked_pose.h"
 #include "msc_vo/matching/frame_matches.h"
-#include "msc_vo/matching/map_relocalization.h"
+#include "msc_vo/matching/revisit.h"
 #include "msc_vo/self_calibration/recent_pairs.h"
 #include "msc_vo/sensor/recorded_image.h"
 #include "msc_vo/structure/axis_evidence.h"
@@ -48,7 +48,7 @@ struct KeyframePacket {
   FrameMatches matches;                         ///< with landmarks of the map
   /// Of the pose in the map, in the tangent of Rigid3Manifold.
   PoseCovariance covariance = PoseCovariance::Zero();
-  std::optional<MapRelocalization> in_inactive_map;  ///< if it was found in one
+  std::optional<Revisit> revisit;  ///< if it shows another part of the map
   /// Seconds since the image before `frame`, keyframe or not; none if it is the first image.
   std::optional<double> frame_interval;
   /// Velocity at the previous keyframe, from the frames before and after it; none if unknown.
@@ -65,8 +65,8 @@ struct KeyframePacket {
   template <typename Archive>
   void Serialize(Archive& archive) {
     archive.Fields(*this, id, frame, reference, cam_from_reference, begins_map, keeps_last_map,
-                   last_tracked, matches, covariance, in_inactive_map, frame_interval,
-                   last_velocity, normals, image, calibration_images, counts);
+                   last_tracked, matches, covariance, revisit, frame_interval, last_velocity,
+                   normals, image, calibration_images, counts);
   }
 };
 

@@ -7,37 +7,16 @@
 #include <utility>
 
 #include "msc_vo/geometry/motion_limits.h"
+#include "msc_vo/mapping/map_correction.h"
 
 namespace msc_vo {
 
-namespace {
-
-// Lets keyframe `id` observe the landmarks of the other map that its features were matched with.
-// Where a feature has a landmark already, the two are one.
-template <typename L>
-void MergeMatched(KeyframeId id, const FrameMatches& matches, Map* map) {
-  for (const auto& match : OfKind<L>(matches)) {
-    if (map->Find<L>(match.id) == nullptr) continue;  // merged by an earlier match
-    const LandmarkId holder = SlotsOf<L>(*map->FindKeyframe(id))[match.feature];
-    if (holder == match.id) continue;
-    if (holder == kNoId) {
-      map->Observe<L>(match.id, id, match.feature);
-    } else {
-      map->MergeLandmarks<L>(holder, match.id);
-    }
-    map->Refresh<L>(match.id);
-  }
-}
-
-}  // namespace
-
-void MapJoiner::Add(KeyframeId keyframe, const PoseCovariance& covariance,
-                    const MapRelocalization& in_inactive_map) {
+void MapJoiner::Add(KeyframeId keyframe, const PoseCovariance& covariance, const Revisit& revisit) {
   // Older keyframes have drifted more, and wrong ones must not outvote the others for ever.
   constexpr size_t kMaxCommonKeyframes = 10;
   if (common_keyframes_.size() == kMaxCommonKeyframes)
     common_keyframes_.erase(common_keyframes_.begin());
-  common_keyframes_.push_back({keyframe, covariance, in_inactive_map});
+  common_keyframes_.push_back({keyframe, covariance, revisit});
 }
 
 void MapJoiner::AppendPoses(const Map& map, const Rigid3& map_from_world,
@@ -96,14 +75,14 @@ void MapJoiner::Forget(const std::vector<CommonKeyframe>& keyframes,
 std::vector<MapJoiner::CommonKeyframe> MapJoiner::CommonKeyframesWith(const Map& map) const {
   std::vector<CommonKeyframe> common_keyframes;
   for (const CommonKeyframe& common : common_keyframes_) {
-    if (map.KnowsKeyframe(common.in_inactive_map.reference)) common_keyframes.push_back(common);
+    if (map.KnowsKeyframe(common.revisit.reference)) common_keyframes.push_back(common);
   }
   return common_keyframes;
 }
 
 std::optional<MapJoin> MapJoiner::TryJoin(Atlas* atlas) {
   if (common_keyframes_.empty()) return std::nullopt;
-  const KeyframeId reference = common_keyframes_.back().in_inactive_map.reference;
+  const KeyframeId reference = common_keyframes_.back().revisit.reference;
   const SubMap* inactive = atlas->FindSubMapOf(reference);
   if (inactive == nullptr || inactive == &atlas->current()) return std::nullopt;
   const SubMap& current = atlas->current();
@@ -111,7 +90,7 @@ std::optional<MapJoin> MapJoiner::TryJoin(Atlas* atlas) {
   const std::vector<CommonKeyframe> in_both = CommonKeyframesWith(inactive->map);
   std::vector<FrameInTwoMaps> frames;  // a: the map that is moved, b: the one that is kept
   for (const CommonKeyframe& common : in_both) {
-    const MapRelocalization& other = common.in_inactive_map;
+    const Revisit& other = common.revisit;
     FrameInTwoMaps frame{current.map.CamFromWorld(common.keyframe),
                          other.cam_from_reference * inactive->map.CamFromWorld(other.reference),
                          common.covariance, other.covariance};
@@ -139,17 +118,13 @@ std::optional<MapJoin> MapJoiner::TryJoin(Atlas* atlas) {
   for (size_t i = 0; i < in_both.size(); ++i) {
     const KeyframeId keyframe = in_both[i].keyframe;
     if (!alignment->inliers[i] || map->FindKeyframe(keyframe) == nullptr) continue;
-    const FrameMatches& matches = in_both[i].in_inactive_map.matches;
-    ForEachLandmarkKind([&](auto kind) {
-      MergeMatched<typename decltype(kind)::Landmark>(keyframe, matches, map);
-    });
+    MergeMatches(keyframe, in_both[i].revisit.matches, map);
   }
-  common_keyframes_.erase(
-      std::remove_if(common_keyframes_.begin(), common_keyframes_.end(),
-                     [map](const CommonKeyframe& common) {
-                       return map->KnowsKeyframe(common.in_inactive_map.reference);
-                     }),
-      common_keyframes_.end());
+  common_keyframes_.erase(std::remove_if(common_keyframes_.begin(), common_keyframes_.end(),
+                                         [map](const CommonKeyframe& common) {
+                                           return map->KnowsKeyframe(common.revisit.reference);
+                                         }),
+                          common_keyframes_.end());
   return join;
 }
 

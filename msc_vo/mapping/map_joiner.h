@@ -11,7 +11,7 @@
 #include "msc_vo/map/last_tracked_pose.h"
 #include "msc_vo/map/map_alignment.h"
 #include "msc_vo/mapping/atlas.h"
-#include "msc_vo/matching/map_relocalization.h"
+#include "msc_vo/matching/revisit.h"
 
 namespace msc_vo {
 
@@ -35,8 +35,7 @@ class MapJoiner {
  public:
   /// Adds a keyframe of the current map that was found in an inactive one. `covariance`: of its
   /// pose in the current map.
-  void Add(KeyframeId keyframe, const PoseCovariance& covariance,
-           const MapRelocalization& in_inactive_map);
+  void Add(KeyframeId keyframe, const PoseCovariance& covariance, const Revisit& revisit);
 
   /// Aligns the current map with the inactive one that keyframes were found in last, joins the two
   /// if the keyframes agree (AlignMaps) and the camera can have moved from one map into the other
@@ -66,11 +65,11 @@ class MapJoiner {
   struct CommonKeyframe {
     KeyframeId keyframe = kNoId;
     PoseCovariance covariance = PoseCovariance::Zero();
-    MapRelocalization in_inactive_map;
+    Revisit revisit;
 
     template <typename Archive>
     void Serialize(Archive& archive) {
-      archive.Fields(*this, keyframe, covariance, in_inactive_map);
+      archive.Fields(*this, keyframe, covariance, revisit);
     }
   };
 

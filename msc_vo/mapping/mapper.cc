@@ -38,7 +38,9 @@ Mapper::Mapper(const MapperOptions& options)
       care_(options.culling, options.fusion),
       optimizer_(options) {}
 
-void Mapper::BeginWith(std::vector<SavedSubMap> submaps, const PinholeCamera& camera) {
+void Mapper::BeginWith(std::vector<SavedSubMap> submaps, const std::vector<PoseGraphEdge>& loops,
+                       const PinholeCamera& camera) {
+  loops_.AddEdges(loops);
   for (SavedSubMap& submap : submaps) ChangeKeyframeCamera(camera, &submap.map);
   atlas_.BeginWith(std::move(submaps));
 }
@@ -56,6 +58,9 @@ void Mapper::Advance(KeyframeTask* task) {
       return next();
     case MappingStage::kFusion:
       Fuse(task);
+      return next();
+    case MappingStage::kLoop:
+      CloseLoop(task);
       return next();
     case MappingStage::kAxes:
       UpdateAxes(task);
@@ -122,6 +127,20 @@ void Mapper::Fuse(KeyframeTask* task) {
   assert(FirstViolation(map()).empty());
 }
 
+void Mapper::CloseLoop(KeyframeTask* task) {
+  const KeyframePacket& packet = task->packet_;
+  MappingSummary& summary = task->summary_;
+  Map* const map = &atlas_.current().map;
+  if (summary.join) return loops_.Clear();  // the world of the visits may be another
+  if (!packet.revisit || map->FindKeyframe(packet.revisit->reference) == nullptr) return;
+  Timed(&summary.times.loop, [&] {
+    loops_.AddRevisit(summary.keyframe, packet.covariance, *packet.revisit);
+    summary.loop = loops_.TryClose(map);
+    if (summary.loop) care_.Fuse(summary.keyframe, map);
+  });
+  summary.num_refused_loops = loops_.num_refused();
+}
+
 void Mapper::UpdateAxes(KeyframeTask* task) {
   MappingSummary& summary = task->summary_;
   SubMap& submap = atlas_.current();
@@ -169,6 +188,7 @@ void Mapper::Cull(KeyframeTask* task) {
 
 void Mapper::BeginMap(const KeyframePacket& packet) {
   inserter_.BeginMap(packet, &atlas_);
+  loops_.Clear();
   care_.BeginMap();
   optimizer_.BeginMap();
 }
@@ -180,6 +200,7 @@ MapSnapshotPtr Mapper::Snapshot() {
   snapshot->world = submap.id;
   snapshot->inactive_maps = atlas_.inactive_maps();
   snapshot->newest_keyframe = inserter_.newest();
+  snapshot->num_loops = loops_.num_closed();
   snapshot->noise_scale = submap.noise.scale();
   calibration_.Describe(&*snapshot);
   snapshot->axes = submap.axes.Estimate();
@@ -191,7 +212,7 @@ MapSnapshotPtr Mapper::Snapshot() {
 void Mapper::ApplyCalibration(KeyframeId newest) {
   atlas_.ChangeAll([this](SubMap* submap) {
     calibration_.ChangeMap(&submap->map);
-    // What an earlier session knows is not in question.
+    // The calibration of earlier sessions is kept.
     const bool is_of_earlier_session =
         !submap->map.keyframes().empty() &&
         submap->map.IsOfEarlierSession(submap->map.keyframes().back().first);

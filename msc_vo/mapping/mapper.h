@@ -14,6 +14,7 @@
 #include "msc_vo/mapping/keyframe_inserter.h"
 #include "msc_vo/mapping/keyframe_packet.h"
 #include "msc_vo/mapping/landmark_care.h"
+#include "msc_vo/mapping/loop_closer.h"
 #include "msc_vo/mapping/map_calibration.h"
 #include "msc_vo/mapping/mapper_options.h"
 #include "msc_vo/mapping/mapping_summary.h"
@@ -28,6 +29,7 @@ enum class MappingStage {
   kStructure,  ///< the frame is brought up to date, and its lines refine each other
   kCreation,   ///< insertion, landmark culling and creation
   kFusion,
+  kLoop,  ///< the loop that it completes is closed
   kAxes,
   kWindow,  ///< selection of the window and callbacks of the caller
   kSolve,   ///< local bundle adjustment, in several slices
@@ -44,7 +46,7 @@ class KeyframeTask {
   explicit KeyframeTask(KeyframePacket packet) : packet_(std::move(packet)) {}
 
   MappingStage stage() const { return stage_; }  ///< of the next slice
-  bool IsInserted() const { return stage_ >= MappingStage::kAxes; }
+  bool IsInserted() const { return stage_ >= MappingStage::kLoop; }
   bool IsDone() const { return stage_ == MappingStage::kDone; }
   const MappingSummary& summary() const { return summary_; }
 
@@ -83,7 +85,8 @@ class Mapper {
 
   /// Begins with the submaps of earlier sessions (Atlas::BeginWith()), expressed in the camera of
   /// the frames to come. Call it before the first keyframe.
-  void BeginWith(std::vector<SavedSubMap> submaps, const PinholeCamera& camera);
+  void BeginWith(std::vector<SavedSubMap> submaps, const std::vector<PoseGraphEdge>& loops,
+                 const PinholeCamera& camera);
   /// All submaps as they are.
   std::vector<SavedSubMap> ShareSubMaps() { return atlas_.ShareSubMaps(); }
 
@@ -102,6 +105,8 @@ class Mapper {
   const SceneAxes& axes() const { return atlas_.current().axes; }
   const NoiseEstimator& noise() const { return atlas_.current().noise; }
   const MapCalibration& calibration() const { return calibration_; }
+  /// The measured poses of all closed loops, those of earlier sessions included.
+  const std::vector<PoseGraphEdge>& loop_edges() const { return loops_.edges(); }
   /// The lines of a submap, refined at the end of a run (RefineMapLines).
   std::map<LandmarkId, RefinedLine> RefinedLines(const SubMap& submap) const {
     return optimizer_.RefinedLines(submap);
@@ -114,8 +119,8 @@ class Mapper {
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [options, submaps, calibration, inserter, care, optimizer] = *this;  // all members
-    archive(submaps, calibration, inserter, care, optimizer);
+    auto& [options, submaps, calibration, inserter, loops, care, optimizer] = *this;  // all members
+    archive(submaps, calibration, inserter, loops, care, optimizer);
   }
 
  private:
@@ -123,6 +128,7 @@ class Mapper {
   void PrepareFrame(KeyframeTask* task);
   void Create(KeyframeTask* task);
   void Fuse(KeyframeTask* task);
+  void CloseLoop(KeyframeTask* task);
   void UpdateAxes(KeyframeTask* task);
   void BeginWindow(KeyframeTask* task);
   bool Solve(KeyframeTask* task);
@@ -137,6 +143,7 @@ class Mapper {
   Atlas atlas_;
   MapCalibration calibration_;
   KeyframeInserter inserter_;
+  LoopCloser loops_;
   LandmarkCare care_;
   WindowOptimizer optimizer_;
 };

@@ -8,6 +8,7 @@
 
 #include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
 #include "msc_vo/map/inactive_maps.h"
+#include "msc_vo/mapping/loop_closer.h"
 #include "msc_vo/mapping/map_joiner.h"
 #include "msc_vo/mapping/submap.h"
 #include "msc_vo/self_calibration/calibration_evidence.h"
@@ -20,6 +21,7 @@ struct MappingTimes {
   double structure = 0.0;  ///< refinement of the keyframe's lines
   double creation = 0.0;   ///< insertion of the keyframe, landmark culling and creation
   double fusion = 0.0;
+  double loop = 0.0;  ///< verification and correction of a loop
   double axes = 0.0;
   std::optional<double> window;  ///< local bundle adjustment; none if it was not due
   double readout = 0.0;          ///< estimation of the readout time
@@ -28,7 +30,8 @@ struct MappingTimes {
 
   template <typename Archive>
   void Serialize(Archive& archive) {
-    archive.Fields(*this, structure, creation, fusion, axes, window, readout, calibration, culling);
+    archive.Fields(*this, structure, creation, fusion, loop, axes, window, readout, calibration,
+                   culling);
   }
 };
 
@@ -51,15 +54,18 @@ struct MappingSummary {
   std::optional<BundleAdjustmentSummary> window;  ///< none if no bundle adjustment was due
   AxesState axes_state = AxesState::kNone;        ///< after the step
   int num_axes_refinements = 0;                   ///< in the run so far
-  std::optional<MapJoin> join;  ///< the submap was joined with that of an older segment
-  int num_refused_joins = 0;    ///< in the run so far (MapJoiner::num_refused)
+  std::optional<MapJoin> join;      ///< the submap was joined with that of an older segment
+  int num_refused_joins = 0;        ///< in the run so far (MapJoiner::num_refused)
+  std::optional<LoopClosure> loop;  ///< that was closed
+  int num_refused_loops = 0;        ///< in the run so far (LoopCloser::num_refused)
   std::shared_ptr<const CalibrationChange> calibration;  ///< null: it was not changed
   MappingTimes times;
 
   template <typename Archive>
   void Serialize(Archive& archive) {
     archive.Fields(*this, keyframe, submap, num_culled_keyframes, window, axes_state,
-                   num_axes_refinements, join, num_refused_joins, calibration, times);
+                   num_axes_refinements, join, num_refused_joins, loop, num_refused_loops,
+                   calibration, times);
   }
 };
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "msc_vo/geometry/angles.h"
+#include "msc_vo/geometry/so3.h"
 #include "msc_vo/logging/logger.h"
 #include "msc_vo/odometry/loss_cause.h"
 
@@ -98,6 +99,14 @@ void EventLog::LogMapping(const MappingStep& step) {
         "camera cannot have moved as fast as they say",
         summary.keyframe);
   }
+  if (summary.loop) LogLoop(*summary.loop);
+  if (summary.num_refused_loops > num_refused_loops_) {
+    num_refused_loops_ = summary.num_refused_loops;
+    Log().info(
+        "loop not closed at keyframe {}: several keyframes were found at an older place, but the "
+        "correction is larger than drift can be, or contradicts the rest of the map",
+        summary.keyframe);
+  }
   if (summary.axes_state != axes_state_ || summary.num_axes_refinements != num_axes_refinements_) {
     axes_state_ = summary.axes_state;
     num_axes_refinements_ = summary.num_axes_refinements;
@@ -111,6 +120,15 @@ void EventLog::LogMapping(const MappingStep& step) {
               "readout time {} at keyframe {}: {:.2f} ms", was_known ? "updated" : "accepted",
               summary.keyframe, 1000.0 * readout_time_);
   }
+}
+
+void EventLog::LogLoop(const LoopClosure& loop) {
+  const Rigid3& correction = loop.new_from_old_camera;
+  Log().info(
+      "loop closed at keyframe {}: {} keyframes show the place of keyframe {}; corrected by "
+      "{:.1f} mm and {:.2f} degrees",
+      loop.keyframe, loop.num_keyframes, loop.reference, 1000.0 * correction.translation().norm(),
+      RadiansToDegrees(LogSO3(correction.rotation()).norm()));
 }
 
 void EventLog::LogCalibration(const MappingStep& step) {

@@ -31,7 +31,7 @@ class EventLog {
   void LogFrame(const FrameResult& frame, bool relocalized);
   /// The next frame begins a segment. The first one is not logged.
   void LogSegment(int segment, SegmentStart start);
-  /// Changes of the Manhattan axes and of the readout time, joins of maps, and refused ones.
+  /// Changes of the Manhattan axes and of the readout time, loops, joins of maps, and refused ones.
   void LogMapping(const MappingStep& step);
   /// Self-calibration at the end of the run; `readout_time` in seconds.
   void LogFinish(const NoiseScale& noise_scale, double readout_time, int num_frames) const;
@@ -40,14 +40,15 @@ class EventLog {
   template <typename Archive>
   void Serialize(Archive& archive) {
     auto& [status, status_since, axes_state, num_axes_refinements, readout_time, last_moved_map,
-           num_refused_joins, depth_sensor, chooses_depth_sensor] =
+           num_refused_joins, num_refused_loops, depth_sensor, chooses_depth_sensor] =
         *this;  // all members, or it does not compile
     archive(status, status_since, axes_state, num_axes_refinements, readout_time, last_moved_map,
-            num_refused_joins, depth_sensor, chooses_depth_sensor);
+            num_refused_joins, num_refused_loops, depth_sensor, chooses_depth_sensor);
   }
 
  private:
   static void LogCalibration(const MappingStep& step);
+  static void LogLoop(const LoopClosure& loop);
   void LogStatus(const FrameResult& frame, bool relocalized);
 
   std::optional<TrackingStatus> status_;  // of the last frame
@@ -57,6 +58,7 @@ class EventLog {
   double readout_time_ = 0.0;            // seconds
   SubMapId last_moved_map_ = kNoSubMap;  // of the last join
   int num_refused_joins_ = 0;
+  int num_refused_loops_ = 0;
   DepthSensor depth_sensor_ = DepthSensor::kAuto;
   bool chooses_depth_sensor_ = true;
 };

@@ -57,10 +57,12 @@ enum class LossCause {
 /// Causes of frames without an estimated pose: all but the last one.
 constexpr int kNumLossCauses = 5;
 
-/// Poses refer to another world than those of the frames before.
+/// Poses refer to another world than those of the frames before, or a loop has moved the map around
+/// the camera.
 struct WorldChange {
   int old_world = 0;  ///< number of the world of the frame before
-  /// From the old world to the new one: the map has been joined with an older one.
+  /// From the old world to the new one: the map has been joined with an older one, or a loop was
+  /// closed, which moves the map by as much as this where the camera is.
   /// cam_from_new = cam_from_old * new_from_old.Inverse(). std::nullopt: unknown, because a segment
   /// begins; its world may have the number of the old one if that was discarded.
   std::optional<Rigid3> new_from_old;
@@ -82,7 +84,8 @@ struct FrameResult {
   /// Number of the world that `cam_from_world` refers to: that of the segment that began it.
   /// kNoSegment: the frame has no pose.
   int world = 0;
-  /// Set on the first frame whose pose refers to another world than that of the frame before.
+  /// Set on the first frame whose pose refers to another world than that of the frame before, or to
+  /// a map that a loop has moved since.
   std::optional<WorldChange> world_changed;
   /// The pose in the map as it was known when the frame was tracked. It jumps when the map is
   /// corrected, found again, or joined with an older one.

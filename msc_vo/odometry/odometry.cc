@@ -18,6 +18,7 @@
 #include "msc_vo/odometry/gap_filling.h"
 #include "msc_vo/odometry/image_pipeline.h"
 #include "msc_vo/odometry/input_checks.h"
+#include "msc_vo/odometry/loop_log.h"
 #include "msc_vo/odometry/loss_cause.h"
 #include "msc_vo/odometry/map_result.h"
 #include "msc_vo/odometry/odometry_pose.h"
@@ -45,10 +46,8 @@ struct Odometry::State {
     log.LogStart(options, camera);
   }
 
+  int last() const { return static_cast<int>(results.size()) - 1; }  // number of the last frame
   void CheckTime(int64_t id, double timestamp) const;
-  // The number of the last frame.
-  int last() const { return static_cast<int>(results.size()) - 1; }
-
   void CheckNotStarted(const char* function) const;
 
   // The steps of Process().
@@ -62,19 +61,19 @@ struct Odometry::State {
   void AddResult(const TrackedFrame& tracked, int world, const RgbdImage& image,
                  const Stopwatch& arrival, StageTimes times);
   void RefineOlderPoses(const TrackedFrame& tracked, const MapSnapshot& map);
-  void SubmitKeyframe(const TrackedFrame& tracked, const AlignedImage& image,
-                      const ExtractedFrame& extracted, const MapSnapshot& map, FirstError* error);
-  void MarkWorldChange(int old_world, SegmentStart start);
+  MapSnapshotPtr SubmitKeyframe(const TrackedFrame& tracked, const AlignedImage& image,
+                                const ExtractedFrame& extracted, const MapSnapshotPtr& map,
+                                FirstError* error);
+  void MarkWorldChange(int old_world, SegmentStart start, const MapSnapshot& map);
 
   void AddUntracked(int64_t id, double timestamp, TrackingStatus status);
-  void DiscardSegment();
   void Record(int frame, const MappingStep& step);
 
   // Everything that later results depend on, except what the options determine.
   template <typename Archive>
   void Serialize(Archive& archive) {
     archive(images, tracker, mapper, calibration, last_window, packets, results, relative_poses,
-            odometry_pose, refiner, segments, log, sessions, schedule);
+            odometry_pose, refiner, segments, loops, log, sessions, schedule);
   }
 
   bool has_started = false;  // an image has been given to this object
@@ -91,6 +90,7 @@ struct Odometry::State {
   OdometryPose odometry_pose;
   PoseRefiner refiner;
   SegmentLog segments;
+  LoopLog loops;
   EventLog log;
   SessionLog sessions;
   SnapshotSchedule schedule;  // last: it uses the members above
@@ -142,23 +142,9 @@ void Odometry::State::BeginSegment(SegmentStart start) {
   // Another first segment: the first keyframe could not be inserted.
   const bool replaces_last = start == SegmentStart::kReplacing ||
                              (start == SegmentStart::kFirst && segments.current() != kNoSegment);
-  if (replaces_last) DiscardSegment();
+  if (replaces_last) DiscardFrames(segments.first_frame(), &results, &relative_poses);
   segments.Begin(static_cast<int>(results.size()), replaces_last);
   log.LogSegment(segments.current(), start);
-}
-
-// No frame but the first one of the segment was tracked: what its map shows is unknown. Its frames
-// are lost since the segment before it, or have no pose if there is none.
-void Odometry::State::DiscardSegment() {
-  const size_t first = segments.first_frame();
-  FrameResult before;
-  before.segment = before.world = kNoSegment;
-  if (first > 0) before = results[first - 1];
-  const ReferencedPose pose_before = first > 0 ? relative_poses[first - 1] : ReferencedPose();
-  for (size_t i = first; i < results.size(); ++i) {
-    Discard(before, &results[i]);
-    relative_poses[i] = pose_before;
-  }
 }
 
 void Odometry::State::AddResult(const TrackedFrame& tracked, int world, const RgbdImage& image,
@@ -182,28 +168,32 @@ void Odometry::State::RefineOlderPoses(const TrackedFrame& tracked, const MapSna
   refiner.Add(last(), tracked);
 }
 
-void Odometry::State::SubmitKeyframe(const TrackedFrame& tracked, const AlignedImage& image,
-                                     const ExtractedFrame& extracted, const MapSnapshot& map,
-                                     FirstError* error) {
+// Returns the map that the pose of the frame is in.
+MapSnapshotPtr Odometry::State::SubmitKeyframe(const TrackedFrame& tracked,
+                                               const AlignedImage& image,
+                                               const ExtractedFrame& extracted,
+                                               const MapSnapshotPtr& map, FirstError* error) {
   const double timestamp = tracked.frame->timestamp;
   std::optional<double> frame_interval;
   if (last() > 0) frame_interval = timestamp - results[last() - 1].timestamp;
   KeyframePacket packet = packets.Take(tracked, frame_interval);
-  calibration.AddImages(image, map, &packet);
-  if (map.needs_axes || packet.begins_map) packet.normals = images.Normals(extracted.image);
+  calibration.AddImages(image, *map, &packet);
+  if (map->needs_axes || packet.begins_map) packet.normals = images.Normals(extracted.image);
   const KeyframeId id = packet.id;
   schedule.Submit(last(), timestamp, std::move(packet));
   const MapSnapshotPtr visible = MapAt(timestamp, error);
-  if (visible->map.FindKeyframe(id) == nullptr) return;
+  if (visible->map.FindKeyframe(id) == nullptr) return map;
   // The latency is 0: its pose is that in its own map.
   results.back().cam_from_world = visible->map.CamFromWorld(id);
   results.back().world = visible->world;
+  return visible;
 }
 
-// The last frame is the first one in another world than `old_world`, of which nothing is known if a
-// segment begins.
-void Odometry::State::MarkWorldChange(int old_world, SegmentStart start) {
+// The last frame may be the first one in another world than `old_world`, of which nothing is known
+// if a segment begins, or the first one after a loop was closed in `map`.
+void Odometry::State::MarkWorldChange(int old_world, SegmentStart start, const MapSnapshot& map) {
   FrameResult& result = results.back();
+  result.world_changed = loops.FindChange(results, relative_poses, map);
   if (old_world == kNoSegment) return;
   if (start != SegmentStart::kNone) {
     result.world_changed = WorldChange{old_world, std::nullopt};
@@ -223,6 +213,8 @@ void Odometry::State::Record(int frame, const MappingStep& step) {
   if (step.summary.calibration) {
     CorrectPoses(step.summary.calibration->maps_before, *step.snapshot, results, &relative_poses);
   }
+  loops.RecordKeyframe(frame, step.summary.keyframe);
+  if (step.summary.loop) loops.Record(frame, *step.summary.loop);
   if (step.summary.join) segments.RecordJoin(frame, *step.summary.join);
   log.LogMapping(step);
   if (step.summary.window) last_window = *step.summary.window;
@@ -256,6 +248,9 @@ void Odometry::SetTrackingObserver(TrackingObserver observer) {
 
 void Odometry::SetMap(MapContents earlier) {
   state_->CheckNotStarted("SetMap");
+  if (state_->sessions.has_earlier() || !state_->results.empty()) {
+    throw std::invalid_argument("odometry: SetMap() needs a new odometry without a map");
+  }
   state_->sessions.BeginWith(std::move(earlier), state_->images.intrinsics()->camera,
                              &state_->tracker, &state_->segments, &state_->mapper);
 }
@@ -283,8 +278,10 @@ void Odometry::State::ProcessImage(const RgbdImage& given, FirstError* error) {
   RefineOlderPoses(tracked, *map);
   packets.Add(tracked);
   calibration.KeepImage(tracked, image, *map);
-  if (tracked.keyframe.is_due()) SubmitKeyframe(tracked, image, extracted, *map, error);
-  MarkWorldChange(old_world, start);
+  const bool is_keyframe = tracked.keyframe.is_due();
+  const MapSnapshotPtr pose_map =
+      is_keyframe ? SubmitKeyframe(tracked, image, extracted, map, error) : map;
+  MarkWorldChange(old_world, start, *pose_map);
   if (!tracking_observer) return;
   const FrameResult result = results.back();
   error->Catch([&] {
@@ -382,6 +379,7 @@ OdometryResult Odometry::Finish() {
   SetPoses(state_->mapper.atlas(), poses, &result.frames);
   result.segments = state_->segments.Segments(result.frames);
   SetWorlds(result.segments, &result.frames);
+  result.loops = state_->loops.loops();
   FillGaps(result.segments, &result.frames);
   state_->segments.PropagateCovariances(&result.frames);
   result.map_world = LargestWorld(result.segments);
@@ -392,8 +390,8 @@ OdometryResult Odometry::Finish() {
   result.num_late_maps = state_->schedule.num_late();
   result.extra_blocks = state_->mapper.extra_blocks();
   result.last_window = state_->last_window;
-  state_->log.LogFinish(result.noise_scale, result.readout_time,
-                        static_cast<int>(result.frames.size()));
+  const int num_frames = static_cast<int>(result.frames.size());
+  state_->log.LogFinish(result.noise_scale, result.readout_time, num_frames);
   return result;
 }
 

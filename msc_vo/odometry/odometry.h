@@ -20,6 +20,7 @@
 #include "msc_vo/mapping/window_factors.h"
 #include "msc_vo/mapping/window_observer.h"
 #include "msc_vo/odometry/frame_result.h"
+#include "msc_vo/odometry/loop_log.h"
 #include "msc_vo/odometry/odometry_options.h"
 #include "msc_vo/odometry/segment_log.h"
 #include "msc_vo/odometry/tracking_observer.h"
@@ -63,6 +64,7 @@ struct MapAxes {
 struct OdometryResult {
   std::vector<FrameResult> frames;  ///< one per image, in order, with the final poses
   std::vector<Segment> segments;    ///< in order of time; one unless the map was left behind
+  std::vector<Loop> loops;          ///< that were closed, in order of time
   /// The world (Segment::world) of keyframes, points, lines and axes: the one with most estimated
   /// poses.
   int map_world = 0;
@@ -100,9 +102,10 @@ struct OdometryResult {
 /// World 0 is the camera frame of the first tracked image. When the map cannot be found again, a
 /// new segment begins with a map and a world of its own, placed where the camera was seen last;
 /// when it meets an older map, the two are joined, and poses are in the world of the older one from
-/// then on. FrameResult::world names the world of each pose, and FrameResult::world_changed the
-/// frames where it is another one. The result is deterministic: the same images give the same
-/// poses, bit by bit. Events are logged to Log() (logging/logger.h).
+/// then on. When the camera returns to a place that it has left, the map is corrected (a loop is
+/// closed). FrameResult::world names the world of each pose, and FrameResult::world_changed the
+/// frames where it is another one, or was corrected. The result is deterministic: the same images
+/// give the same poses, bit by bit. Events are logged to Log() (logging/logger.h).
 ///
 /// Everything that is set up must be set before the first image: Set...(), SkipClippedDepthSearch()
 /// and Restore() throw std::invalid_argument after Process() has accepted one, or Drop().

@@ -34,6 +34,8 @@ void ListGeneral(OdometryOptions* options, OptionLister* list) {
       .MakeBasic("Disable to estimate the motion from lines only.");
   list->Add("use_lines", &options->use_lines, "Use line features.")
       .MakeBasic("Disable to estimate the motion from points only.");
+  list->Add("close_loops", &options->tracking.find_loops,
+            "Recognise places that were left, and correct the map when the camera returns.");
   list->Add("align_depth", &options->align_depth,
             "Warp each depth image to the time of its colour image if their time stamps differ.")
       .MakeBasic("Disable if the time stamps of the depth images are wrong.");

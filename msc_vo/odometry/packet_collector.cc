@@ -43,7 +43,7 @@ KeyframePacket PacketCollector::Take(const TrackedFrame& tracked,
   packet.last_tracked = tracked.keyframe.last_tracked;
   packet.matches = tracked.matches;
   packet.covariance = tracked.pose.covariance;
-  packet.in_inactive_map = tracked.keyframe.in_inactive_map;
+  packet.revisit = tracked.keyframe.revisit;
   packet.frame_interval = frame_interval;
   return packet;
 }

@@ -73,6 +73,18 @@ void CorrectPoses(const InactiveMaps& maps_before, const MapSnapshot& after,
   }
 }
 
+void DiscardFrames(int first, std::vector<FrameResult>* frames,
+                   std::vector<ReferencedPose>* poses) {
+  FrameResult before;
+  before.segment = before.world = kNoSegment;
+  if (first > 0) before = (*frames)[first - 1];
+  const ReferencedPose pose_before = first > 0 ? (*poses)[first - 1] : ReferencedPose();
+  for (size_t i = first; i < frames->size(); ++i) {
+    Discard(before, &(*frames)[i]);
+    (*poses)[i] = pose_before;
+  }
+}
+
 void SetPoses(const Atlas& atlas, const std::vector<ReferencedPose>& poses,
               std::vector<FrameResult>* frames) {
   for (size_t i = 0; i < frames->size(); ++i) {

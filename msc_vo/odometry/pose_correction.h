@@ -29,6 +29,11 @@ struct ReferencedPose {
 void CorrectPoses(const InactiveMaps& maps_before, const MapSnapshot& after,
                   const std::vector<FrameResult>& frames, std::vector<ReferencedPose>* poses);
 
+/// Discards the frames from `first` on, of a segment of which no frame but the first was tracked:
+/// what its map shows is unknown. They are lost since the segment before it, or have no pose if
+/// there is none.
+void DiscardFrames(int first, std::vector<FrameResult>* frames, std::vector<ReferencedPose>* poses);
+
 /// Sets the poses of `frames`, one per pose, from those of their keyframes in the maps of `atlas`.
 void SetPoses(const Atlas& atlas, const std::vector<ReferencedPose>& poses,
               std::vector<FrameResult>* frames);

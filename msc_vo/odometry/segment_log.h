@@ -36,7 +36,7 @@ struct Segment {
 /// The world with most estimated poses, the oldest one on ties; 0 without segments.
 int LargestWorld(const std::vector<Segment>& segments);
 
-/// Sets the worlds of frames with final poses, and where they change.
+/// Sets the worlds of frames with final poses, and where they change: loops have moved all of them.
 void SetWorlds(const std::vector<Segment>& segments, std::vector<FrameResult>* frames);
 
 /// Keeps the segments of a run while frames are tracked and keyframes are mapped.

@@ -14,10 +14,9 @@ void SessionLog::BeginWith(MapContents earlier, const PinholeCamera& camera, Tra
     first_keyframe_ = std::max(first_keyframe_, submap.map.next_keyframe());
   }
   earlier_ = std::move(earlier.sessions);
-  loops_ = std::move(earlier.loops);
   tracker->SetFirstKeyframe(first_keyframe_);
   segments->BeginWith(static_cast<int>(earlier.submaps.size()));
-  mapper->BeginWith(std::move(earlier.submaps), camera);
+  mapper->BeginWith(std::move(earlier.submaps), earlier.loops, camera);
 }
 
 MapContents SessionLog::Share(const std::string& session, Mapper* mapper) const {
@@ -25,7 +24,7 @@ MapContents SessionLog::Share(const std::string& session, Mapper* mapper) const 
   contents.sessions = earlier_;
   contents.sessions.push_back({first_keyframe_, session});
   contents.submaps = mapper->ShareSubMaps();
-  contents.loops = loops_;
+  contents.loops = mapper->loop_edges();
   return contents;
 }
 

@@ -19,19 +19,20 @@ class SessionLog {
   /// Begins the run with the maps of earlier sessions, expressed in `camera`, that of the run.
   void BeginWith(MapContents earlier, const PinholeCamera& camera, Tracker* tracker,
                  SegmentLog* segments, Mapper* mapper);
+  /// Whether there are earlier sessions.
+  bool has_earlier() const { return !earlier_.empty(); }
   /// All maps, to be saved; the present session has the name `session`.
   MapContents Share(const std::string& session, Mapper* mapper) const;
 
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [sessions, loops, first_keyframe] = *this;  // all members, or it does not compile
-    archive(sessions, loops, first_keyframe);
+    auto& [sessions, first_keyframe] = *this;  // all members, or it does not compile
+    archive(sessions, first_keyframe);
   }
 
  private:
   std::vector<MapSession> earlier_;
-  std::vector<LoopEdge> loops_;    // of earlier sessions
   KeyframeId first_keyframe_ = 0;  // of the present session
 };
 

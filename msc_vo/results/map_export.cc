@@ -90,7 +90,7 @@ std::vector<TimedPose> KeyframesOf(const MapContents& contents, size_t session, 
 
 }  // namespace
 
-std::string FormatG2o(const SavedSubMap& submap, const std::vector<LoopEdge>& loops) {
+std::string FormatG2o(const SavedSubMap& submap, const std::vector<PoseGraphEdge>& loops) {
   const Map& map = submap.map;
   std::string text;
   for (const auto& [id, keyframe] : map.keyframes()) {
@@ -106,7 +106,7 @@ std::string FormatG2o(const SavedSubMap& submap, const std::vector<LoopEdge>& lo
                          PoseCovariance::Identity() * (kSigma * kSigma / covisible.num_shared));
     }
   }
-  for (const LoopEdge& loop : loops) {
+  for (const PoseGraphEdge& loop : loops) {
     if (map.FindKeyframe(loop.from) == nullptr || map.FindKeyframe(loop.to) == nullptr) continue;
     text += FormatEdge(loop.to, loop.from, loop.to_from_from, loop.covariance);
   }

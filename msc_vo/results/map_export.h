@@ -13,7 +13,7 @@ namespace msc_vo {
 /// (metres), an edge for each loop with the inverse of its covariance, and an edge for each pair of
 /// keyframes that share at least 20 landmarks. The information of the latter, which no measurement
 /// gives, is that of a millimetre and a milliradian divided by the number of shared landmarks.
-std::string FormatG2o(const SavedSubMap& submap, const std::vector<LoopEdge>& loops);
+std::string FormatG2o(const SavedSubMap& submap, const std::vector<PoseGraphEdge>& loops);
 
 /// Writes each submap to a folder `submap_<id>` in `folder`: points.ply, lines.ply, graph.g2o and,
 /// for each session with keyframes in it, keyframes_<number>.txt, a TUM trajectory. Throws

@@ -150,6 +150,9 @@ std::vector<ReportNumber> MakeNumbers(const RunSummary& summary, const RunContex
     numbers.push_back({"Segments", DescribeSegments(summary),
                        "a new one begins when the map cannot be found again"});
   }
+  if (!summary.loops.empty()) {
+    numbers.push_back({"Loops", DescribeLoops(summary), "the camera has returned to a place"});
+  }
   if (!context.segment_errors.empty()) {
     numbers.push_back({"APE RMSE of segments", SegmentErrorText(context.segment_errors),
                        "each aligned by itself"});
@@ -289,6 +292,7 @@ std::string FormatRunTable(const RunSummary& summary, const RunContext& context,
   const std::string losses = DescribeLosses(summary);
   if (!losses.empty()) table += Row("", "images without a pose: " + losses);
   if (summary.segments.size() > 1) table += Row("segments", DescribeSegments(summary));
+  if (!summary.loops.empty()) table += Row("loops", DescribeLoops(summary));
   table += Row("map", MapText(summary));
   table += Row("axes", AxesText(summary));
   table += StageRows(summary.stages);

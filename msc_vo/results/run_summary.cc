@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "msc_vo/geometry/angles.h"
 #include "msc_vo/odometry/localization.h"
 #include "msc_vo/results/report_frame.h"
 #include "msc_vo/text/format_text.h"
@@ -31,6 +32,7 @@ std::vector<StageTimeStatistics> SummarizeMapping(const std::vector<FrameResult>
       summarize("structure", [](const StageTimes& t) { return t.mapping_stages.structure; }),
       summarize("creation", [](const StageTimes& t) { return t.mapping_stages.creation; }),
       summarize("fusion", [](const StageTimes& t) { return t.mapping_stages.fusion; }),
+      summarize("loop", [](const StageTimes& t) { return t.mapping_stages.loop; }),
       summarize("axes", [](const StageTimes& t) { return t.mapping_stages.axes; }),
       summarize("local_ba", [](const StageTimes& t) { return t.mapping_stages.window; }),
       summarize("readout", [](const StageTimes& t) { return t.mapping_stages.readout; }),
@@ -70,6 +72,7 @@ RunSummary Summarize(const OdometryResult& result) {
   const std::vector<StageTimeStatistics> mapping = SummarizeMapping(result.frames);
   summary.stages.insert(std::prev(summary.stages.end()), mapping.begin(), mapping.end());
   summary.segments = result.segments;
+  summary.loops = result.loops;
   summary.map_world = result.map_world;
   summary.num_keyframes = static_cast<int>(result.keyframes.size());
   summary.num_points = static_cast<int>(result.points.size());
@@ -116,6 +119,16 @@ std::string DescribeFailure(const RunSummary& summary) {
       summary.num_estimated, NumProcessed(summary), 100.0 * kMinTrackedRatio);
   const std::string losses = DescribeLosses(summary);
   return losses.empty() ? text : text + "; the others: " + losses;
+}
+
+std::string DescribeLoops(const RunSummary& summary) {
+  Loop largest;  // of all corrections
+  for (const Loop& loop : summary.loops) {
+    largest.translation = std::max(largest.translation, loop.translation);
+    largest.rotation = std::max(largest.rotation, loop.rotation);
+  }
+  return FormatText("%zu closed; corrected by up to %.1f mm and %.2f degrees", summary.loops.size(),
+                    1000.0 * largest.translation, RadiansToDegrees(largest.rotation));
 }
 
 std::string DescribeSegments(const RunSummary& summary) {

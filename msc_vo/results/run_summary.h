@@ -34,6 +34,7 @@ struct RunSummary {
   /// Stages of tracking, "tracking" as a whole, stages of mapping, "mapping" as a whole.
   std::vector<StageTimeStatistics> stages;
   std::vector<Segment> segments;  ///< in order of time
+  std::vector<Loop> loops;        ///< in order of time
   int map_world = 0;              ///< the world (Segment::world) of the map
   int num_keyframes = 0;
   int num_points = 0;
@@ -65,6 +66,8 @@ bool TrackingFailed(const RunSummary& summary);
 /// black or uniform images, ...". Empty if all frames have an estimated pose.
 std::string DescribeLosses(const RunSummary& summary);
 
+/// The number of loops and the largest correction, one line.
+std::string DescribeLoops(const RunSummary& summary);
 /// The number of segments, how many are joined, and how many are not in the map, one line.
 std::string DescribeSegments(const RunSummary& summary);
 

@@ -82,22 +82,18 @@ class InitialPoseSearch {
     return estimator_.MatchAndEstimate(pose_options_, frame_, local, options_.wide_radius, pose);
   }
 
-  std::optional<FramePose> Relocalize(KeyframeCycle* keyframes) {
-    std::optional<FramePose> pose;
-    for (int i = 0; i < keyframes->num_per_frame && !pose; ++i) {
-      const auto* keyframe = map_.keyframes().FindUpTo(keyframes->next);
-      if (keyframe == nullptr) keyframe = &map_.keyframes().back();
-      keyframes->next = keyframe->first - 1;
+  std::optional<FramePose> Relocalize(const KeyframeSelection& keyframes) {
+    for (const KeyframeId id : estimator_.Search(keyframes)) {
       const std::optional<Relocalization> hit = estimator_.Search([&] {
         return msc_vo::Relocalize(options_.relocalizer, options_.matchers.line_matcher, frame_,
-                                  map_, keyframe->second);
+                                  map_, *map_.FindKeyframe(id));
       });
-      if (hit) {
-        pose = estimator_.Estimate(pose_options_, frame_, hit->cam_from_world, hit->matches);
-      }
+      if (!hit) continue;
+      const std::optional<FramePose> pose =
+          estimator_.Estimate(pose_options_, frame_, hit->cam_from_world, hit->matches);
+      if (pose) return pose;
     }
-    if (pose) keyframes->next = kNoId;
-    return pose;
+    return std::nullopt;
   }
 
  private:
@@ -118,7 +114,8 @@ KeyframeId ReferenceOrNewest(const Map& map, KeyframeId id) {
 
 std::optional<InitialPose> FindInitialPose(const TrackerOptions& options, const Frame& frame,
                                            const LastFrame& last, const PosePrediction& prediction,
-                                           KeyframeCycle* keyframes, PoseEstimator* estimator) {
+                                           const KeyframeSelection& keyframes,
+                                           PoseEstimator* estimator) {
   InitialPoseSearch search(options, frame, last, prediction, estimator);
   const std::optional<NearPose> near =
       search.MatchLastFrame(prediction.cam_from_world, options.prediction_radius);

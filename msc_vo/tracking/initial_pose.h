@@ -3,7 +3,9 @@
 
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <vector>
 
 #include "msc_vo/tracking/frame_pose.h"
 #include "msc_vo/tracking/pose_plausibility.h"
@@ -23,11 +25,8 @@ struct InitialPose {
   PoseOrigin origin = PoseOrigin::kPrediction;
 };
 
-/// The keyframes that relocalisation tries next, from newest to oldest, cyclically.
-struct KeyframeCycle {
-  KeyframeId next = kNoId;  ///< kNoId: the newest one
-  int num_per_frame = 0;
-};
+/// Returns the keyframes that relocalisation tries in the frame.
+using KeyframeSelection = std::function<std::vector<KeyframeId>()>;
 
 /// Finds the initial pose of a frame: by matching with the last frame around the predicted pose; if
 /// few of the matches or of the visible features support it, with a wide search radius and around
@@ -35,7 +34,8 @@ struct KeyframeCycle {
 /// there; then by relocalisation.
 std::optional<InitialPose> FindInitialPose(const TrackerOptions& options, const Frame& frame,
                                            const LastFrame& last, const PosePrediction& prediction,
-                                           KeyframeCycle* keyframes, PoseEstimator* estimator);
+                                           const KeyframeSelection& keyframes,
+                                           PoseEstimator* estimator);
 
 /// The keyframe `id`, or the newest one if it was removed from the map.
 KeyframeId ReferenceOrNewest(const Map& map, KeyframeId id);

@@ -13,7 +13,7 @@
 #include "msc_vo/map/landmark_kinds.h"
 #include "msc_vo/map/last_tracked_pose.h"
 #include "msc_vo/matching/frame_matches.h"
-#include "msc_vo/matching/map_relocalization.h"
+#include "msc_vo/matching/revisit.h"
 #include "msc_vo/pose_estimation/pose_optimization.h"
 #include "msc_vo/tracking/tracking_status.h"
 
@@ -39,8 +39,8 @@ struct KeyframeProposal {
   SegmentStart segment_start = SegmentStart::kNone;
   /// In the previous map, if the frame begins a new one.
   std::optional<LastTrackedPose> last_tracked;
-  /// The same frame in the map of an older segment, if it was found there.
-  std::optional<MapRelocalization> in_inactive_map;
+  /// The same frame in another part of the maps, if it was found there.
+  std::optional<Revisit> revisit;
 
   bool is_due() const { return id != kNoId; }
 };

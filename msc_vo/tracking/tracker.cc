@@ -46,19 +46,19 @@ PoseSummary WithDynamicObjects(PoseSummary last, const PoseSummary& first) {
 Tracker::Tracker(const TrackerOptions& options)
     : options_(options),
       policy_(options.keyframes),
-      segment_start_(options.segments),
-      inactive_map_search_(options) {
+      places_(options),
+      segment_start_(options.segments) {
   std::string error;
   if (!options.IsValid(&error)) throw std::invalid_argument(error);
 }
 
 TrackedFrame Tracker::Track(const std::shared_ptr<const Frame>& raw, const MapSnapshot& snapshot) {
   // Before the last evaluation of the factors, nothing else changes that later frames depend on.
-  const KeyframeCycle cycle = keyframe_cycle_;
+  const TryOrder relocalization = relocalization_;
   try {
     return TrackFrame(raw, snapshot, pose_factor_callback_ != nullptr);
   } catch (...) {
-    keyframe_cycle_ = cycle;
+    relocalization_ = relocalization;
     throw;
   }
 }
@@ -68,9 +68,14 @@ TrackedFrame Tracker::TrackFrame(const std::shared_ptr<const Frame>& raw,
   if (snapshot.map.keyframes().empty()) return Initialize(raw);
   const Input input = Predict(raw, snapshot, use_factors);
   PoseEstimator estimator(options_, snapshot.map, snapshot.noise_scale, pose_factors_);
-  keyframe_cycle_.num_per_frame = NumKeyframesToTry(snapshot.map, raw->timestamp);
+  places_.Update(snapshot);
+  const auto keyframes_to_try = [&] {
+    return places_.SelectKeyframes(*input.frame, snapshot.map,
+                                   NumKeyframesToTry(snapshot.map, raw->timestamp),
+                                   &relocalization_);
+  };
   const std::optional<InitialPose> initial = FindInitialPose(
-      options_, *input.frame, last_, input.prediction, &keyframe_cycle_, &estimator);
+      options_, *input.frame, last_, input.prediction, keyframes_to_try, &estimator);
   TrackedFrame tracked = initial ? TrackInMap(input, *initial, &estimator) : TrackInGap(input);
   tracked.has_pose_factors = !pose_factors_.empty();
   tracked.times = estimator.times();
@@ -87,6 +92,7 @@ TrackedFrame Tracker::TrackInMap(const Input& input, const InitialPose& initial,
     tracked.frame = MarkDynamicFeatures(options_.pose.consensus, input.snapshot.map, tracked);
   }
   in_gap_ = false;
+  relocalization_.Reset();
   segment_start_.Tracked(tracked.frame->timestamp);
   Follow(&tracked);
   return tracked;
@@ -136,7 +142,7 @@ void Tracker::StartSegment(SegmentStart start, TrackedFrame* tracked) {
   plausibility_ = PosePlausibility();
   in_gap_ = false;
   segment_start_.Started(timestamp);
-  keyframe_cycle_ = {};
+  relocalization_.Reset();
   last_ = LastFrame(*tracked);
 }
 
@@ -245,15 +251,14 @@ KeyframeProposal Tracker::ProposeKeyframe(const Input& input, const TrackedFrame
   // The second frame yields the velocity of the first keyframe, which is compensated with it.
   const bool enables_compensation = snapshot.readout_time != 0.0 && AwaitsCompensation(snapshot) &&
                                     last_.keyframe == snapshot.newest_keyframe;
-  KeyframeProposal proposal;
-  proposal.in_inactive_map = estimator->Search([&] {
-    return inactive_map_search_.Search(tracked, snapshot, SecondsSincePrevious(timestamp));
-  });
   const bool is_certain = tracked.status == TrackingStatus::kTracked;
-  if (policy_.IsDue(*tracked.frame, tracked.matches, is_certain) || enables_compensation ||
-      proposal.in_inactive_map) {
-    proposal.id = MakeKeyframe(timestamp);
-  }
+  const bool is_due =
+      policy_.IsDue(*tracked.frame, tracked.matches, is_certain) || enables_compensation;
+  KeyframeProposal proposal;
+  proposal.revisit = estimator->Search([&] {
+    return places_.FindRevisit(tracked, is_due, snapshot, SecondsSincePrevious(timestamp));
+  });
+  if (is_due || proposal.revisit) proposal.id = MakeKeyframe(timestamp);
   return proposal;
 }
 

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "msc_vo/map/snapshot.h"
-#include "msc_vo/tracking/inactive_map_search.h"
 #include "msc_vo/tracking/initial_pose.h"
 #include "msc_vo/tracking/keyframe_policy.h"
 #include "msc_vo/tracking/motion_model.h"
+#include "msc_vo/tracking/place_search.h"
 #include "msc_vo/tracking/pose_factor_callback.h"
 #include "msc_vo/tracking/pose_plausibility.h"
 #include "msc_vo/tracking/search_budget.h"
@@ -57,11 +57,11 @@ class Tracker {
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [options, policy, motion_model, callback, factors, last, next_keyframe, keyframe_cycle,
-           segment_start, inactive_map_search, plausibility, in_gap] =
+    auto& [options, policy, motion_model, callback, factors, last, next_keyframe, places,
+           relocalization, segment_start, plausibility, in_gap] =
         *this;  // all members, or it does not compile
-    archive(policy, motion_model, last, next_keyframe, keyframe_cycle.next, segment_start,
-            inactive_map_search, plausibility, in_gap);
+    archive(policy, motion_model, last, next_keyframe, places, relocalization, segment_start,
+            plausibility, in_gap);
   }
 
  private:
@@ -130,9 +130,9 @@ class Tracker {
   std::vector<PoseFactor> pose_factors_;     // of the frame that is being tracked
   LastFrame last_;
   KeyframeId next_keyframe_ = 0;  // the id of the next keyframe
-  KeyframeCycle keyframe_cycle_;
+  PlaceSearch places_;
+  TryOrder relocalization_;  // since the last frame that was found
   SegmentStartPolicy segment_start_;
-  InactiveMapSearch inactive_map_search_;
   PosePlausibility plausibility_;
   bool in_gap_ = false;  // frames since `last_` have no pose
 };

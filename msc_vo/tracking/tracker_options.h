@@ -56,9 +56,11 @@ struct TrackerOptions {
   double weak_rotation_sigma = 1.0;      ///< degrees
   /// Longest gap that is bridged by constant velocity.
   double max_prediction = 0.5;  ///< seconds
-  /// Keyframes that relocalisation tries in 1/30 s, at least one per frame (KeyframesToTry), newest
-  /// and least recently tried first.
+  /// Keyframes that relocalisation tries in 1/30 s, at least one per frame (KeyframesToTry): the
+  /// one that looks most like the frame, and others in turn (TryOrder).
   int relocalization_keyframes = 3;
+  /// Whether keyframes are searched for parts of their map that they share no landmarks with.
+  bool find_loops = true;
   /// Features with depth that the first frame needs, points and lines together (CanBeginMap).
   int min_initial_features = 20;
 

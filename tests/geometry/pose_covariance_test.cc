@@ -74,5 +74,22 @@ TEST_F(PoseCovarianceTest, OfTheCameraHasNoLeverArm) {
   EXPECT_TRUE(CameraCovariance(c_from_b_, covariance).isApprox(expected, 1e-6));
 }
 
+TEST_F(PoseCovarianceTest, OfTheCameraAndOfItsPoseAreInverse) {
+  const PoseCovariance covariance = Correlated(0.7, 1.3);
+  const PoseCovariance camera = CameraCovariance(c_from_b_, covariance);
+  EXPECT_TRUE(CovarianceOfCamera(c_from_b_, camera).isApprox(covariance, 1e-9));
+}
+
+// A motion of frame b, seen in frame c.
+TEST_F(PoseCovarianceTest, IsTransportedLikeTheMotion) {
+  const PoseCovariance covariance = Correlated(0.2, 2.1);
+  const PoseCovariance expected = Propagate(
+      [&](const Vector6& d) {
+        return Minus(c_from_b_ * Plus(Rigid3(), d) * c_from_b_.Inverse(), Rigid3());
+      },
+      covariance);
+  EXPECT_TRUE(TransportCovariance(c_from_b_, covariance).isApprox(expected, 1e-6));
+}
+
 }  // namespace
 }  // namespace msc_vo

@@ -86,6 +86,7 @@ void ExpectSameMap(const Map& loaded, const Map& saved) {
     const Keyframe* const found = loaded.FindKeyframe(id);
     ASSERT_NE(found, nullptr);
     EXPECT_EQ(found->cam_from_world.params, keyframe.cam_from_world.params);
+    EXPECT_EQ(*loaded.StepCovariance(id), *saved.StepCovariance(id));
     EXPECT_EQ(found->frame->id, keyframe.frame->id);
     EXPECT_EQ(found->frame->timestamp, keyframe.frame->timestamp);
     EXPECT_EQ(found->frame->intrinsics->distortion.k, keyframe.frame->intrinsics->distortion.k);

@@ -41,6 +41,7 @@ TEST_F(MapVersionsTest, ReadsVersion1) {
   const Keyframe& keyframe = *map.FindKeyframe(1);
   EXPECT_NEAR(keyframe.cam_from_world.params[1], 0.051933722035206, 1e-12);
   EXPECT_NEAR(keyframe.cam_from_world.params[6], -0.107344770013162, 1e-12);
+  EXPECT_NEAR((*map.StepCovariance(1))(4, 4), 8e-6, 1e-15);
   EXPECT_EQ(keyframe.frame->id, 10);
   EXPECT_NEAR(keyframe.frame->timestamp, 1.333333, 1e-9);
   EXPECT_EQ(keyframe.frame->camera.width, 160);

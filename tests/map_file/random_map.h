@@ -49,6 +49,7 @@ class RandomMap {
     const bool is_first = map->keyframes().empty();
     const KeyframeId last = is_first ? kNoId : map->keyframes().back().first;
     const KeyframeId id = map->AddKeyframe(MakeFrame(), Pose());
+    map->SetStepCovariance(id, Uniform(1e-6, 1e-4) * PoseCovariance::Identity());
     ForEachLandmarkKind([&](auto kind) {
       using L = typename decltype(kind)::Landmark;
       const int num = static_cast<int>(SlotsOf<L>(*map->FindKeyframe(id)).size());

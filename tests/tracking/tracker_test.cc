@@ -3,36 +3,13 @@
 
 #include "msc_vo/tracking/tracker.h"
 
-#include "tests/support/synthetic_frames.h"
-#include "tests/support/synthetic_map.h"
+#include "tests/tracking/tracker_fixture.h"
 #include <gmock/gmock.h>
 
 #include "msc_vo/frame/feature_counts.h"
 
 namespace msc_vo {
 namespace {
-
-// A tracker after frame 0, and the map of that frame. The world is camera 0, so that Truth() is
-// relative to it.
-class TrackerTest : public ::testing::Test {
- protected:
-  void Start(const SyntheticFrames::Options& options) {
-    world_ = std::make_unique<SyntheticFrames>(options);
-    const std::shared_ptr<const Frame> first = world_->MakeFrame(0);
-    const TrackedFrame tracked = tracker_.Track(first, MapSnapshot());
-    ASSERT_EQ(tracked.status, TrackingStatus::kTracked);
-    ASSERT_TRUE(tracked.keyframe.is_due());
-    snapshot_ = MapOfOneKeyframe(first, Rigid3());
-  }
-  static Rigid3 Truth(int index) {
-    return SyntheticFrames::CamFromWorld(index) * SyntheticFrames::CamFromWorld(0).Inverse();
-  }
-  TrackedFrame Track(int index) { return tracker_.Track(world_->MakeFrame(index), snapshot_); }
-
-  Tracker tracker_{TrackerOptions()};
-  std::unique_ptr<SyntheticFrames> world_;
-  MapSnapshot snapshot_;
-};
 
 TEST_F(TrackerTest, EstimatesThePoseOfEveryFrame) {
   Start({});
@@ -256,47 +233,6 @@ TEST_F(TrackerTest, GivesUpALargeMapAfterTheSameTimeAtAnyRate) {
     }
     EXPECT_NEAR((i - 1) / rate, 1.5, 0.4) << rate;
   }
-}
-
-TEST_F(TrackerTest, FindsFramesInAnInactiveMap) {
-  Start({});
-  // The same scene as an inactive map in another world.
-  const Rigid3 other_from_world(
-      Eigen::Quaterniond(Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitY())), {4.0, 0.0, -1.0});
-  const Rigid3 first_from_other = other_from_world.Inverse();
-  MapSnapshot inactive = MapOfOneKeyframe(world_->MakeFrame(0), first_from_other);
-  snapshot_.inactive_maps.push_back(std::make_shared<const Map>(std::move(inactive.map)));
-  std::vector<int> found;
-  for (int i = 1; i < 20; ++i) {
-    const TrackedFrame tracked = Track(i);
-    if (!tracked.keyframe.in_inactive_map) continue;
-    found.push_back(i);
-    EXPECT_TRUE(tracked.keyframe.is_due());
-    EXPECT_EQ(tracked.keyframe.in_inactive_map->reference, 0);
-    // The only keyframe there is camera 0.
-    EXPECT_LT(PositionError(tracked.keyframe.in_inactive_map->cam_from_reference, Truth(i)), 0.01)
-        << i;
-    EXPECT_GT(tracked.keyframe.in_inactive_map->matches.points.size(), 50u);
-  }
-  // At most one in 0.2 seconds.
-  ASSERT_GE(found.size(), 3u);
-  for (size_t i = 1; i < found.size(); ++i) EXPECT_GE(found[i] - found[i - 1], 6);
-}
-
-// Two keyframes of an inactive map show the same place. While they do not lead to a join, one must
-// not keep the search from the other.
-TEST_F(TrackerTest, SearchesOtherKeyframesOfAnInactiveMapAfterSixFrames) {
-  Start({});
-  MapSnapshot inactive = MapOfOneKeyframe(world_->MakeFrame(0), Rigid3());
-  AddKeyframe(world_->MakeFrame(0), Rigid3(), &inactive);
-  snapshot_.inactive_maps.push_back(std::make_shared<const Map>(std::move(inactive.map)));
-  std::vector<KeyframeId> found;
-  for (int i = 1; i < 70 && found.size() < 8; ++i) {
-    const TrackedFrame tracked = Track(i);
-    if (tracked.keyframe.in_inactive_map)
-      found.push_back(tracked.keyframe.in_inactive_map->reference);
-  }
-  EXPECT_THAT(found, testing::ElementsAre(1, 1, 1, 1, 1, 1, 0, 0));
 }
 
 // The frame as of a camera that looks at a wall at so many metres.

@@ -38,8 +38,8 @@ constexpr struct {
     {"features",
      "CREATE TABLE features (keyframe INTEGER PRIMARY KEY, frame INTEGER NOT NULL, timestamp REAL "
      "NOT NULL, calibration INTEGER NOT NULL, points BLOB NOT NULL, point_landmarks BLOB NOT NULL, "
-     "lines BLOB NOT NULL, line_landmarks BLOB NOT NULL, depth_ranges BLOB NOT NULL, checksum "
-     "INTEGER NOT NULL)"},
+     "lines BLOB NOT NULL, line_landmarks BLOB NOT NULL, depth_ranges BLOB NOT NULL, step BLOB "
+     "NOT NULL, checksum INTEGER NOT NULL)"},
     {"point",
      "CREATE TABLE point (id INTEGER PRIMARY KEY, submap INTEGER NOT NULL, first_keyframe INTEGER "
      "NOT NULL, x INTEGER NOT NULL, y INTEGER NOT NULL, z INTEGER NOT NULL, visible INTEGER NOT "

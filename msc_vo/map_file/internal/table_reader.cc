@@ -41,6 +41,14 @@ Rigid3 ReadPose(RowReader* row) {
   return pose;
 }
 
+PoseCovariance ReadCovariance(RowReader* row) {
+  PoseCovariance covariance;
+  BlobReader blob(row->Blob());
+  for (double& value : covariance.reshaped()) value = blob.F64();
+  if (!blob.AtEnd() || !covariance.allFinite()) throw BlobError("a covariance is not valid");
+  return covariance;
+}
+
 class TableReader {
  public:
   TableReader(const SqliteDatabase& database, CalibrationRows* calibrations)
@@ -188,6 +196,7 @@ void TableReader::ReadKeyframe(RowReader* row, RowReader* features) {
   if (features->Integer() != id) row->Fail("it has no features");
   try {
     submap->map.AddKeyframe(ReadFrame(id, features), cam_from_world, id);
+    submap->map.SetStepCovariance(id, ReadCovariance(features));
   } catch (const BlobError& error) {
     features->Fail(error.what());
   }
@@ -283,13 +292,12 @@ void TableReader::ReadLoops() {
   while (rows.Step()) {
     RowReader row(rows, database_.path(), "loop");
     row.Integer();
-    LoopEdge loop;
+    PoseGraphEdge loop;
     loop.from = row.Integer();
     loop.to = row.Integer();
     loop.to_from_from = ReadPose(&row);
     try {
-      BlobReader blob(row.Blob());
-      for (double& value : loop.covariance.reshaped()) value = blob.F64();
+      loop.covariance = ReadCovariance(&row);
     } catch (const BlobError& error) {
       row.Fail(error.what());
     }

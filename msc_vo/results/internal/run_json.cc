@@ -102,6 +102,18 @@ Json ToJson(const BundleAdjustmentSummary& summary) {
   return json;
 }
 
+Json LoopsToJson(const RunSummary& summary) {
+  Json json = Json::array();
+  for (const Loop& loop : summary.loops) {
+    json.push_back({{"frame", loop.frame},
+                    {"reference", loop.reference},
+                    {"keyframes", loop.num_keyframes},
+                    {"correction_deg", RadiansToDegrees(loop.rotation)},
+                    {"correction", loop.translation}});
+  }
+  return json;
+}
+
 }  // namespace
 
 Json MeasurementsToJson(const RunSummary& summary, const std::optional<TrajectoryError>& error,
@@ -109,6 +121,7 @@ Json MeasurementsToJson(const RunSummary& summary, const std::optional<Trajector
   Json json;
   json["frames"] = FramesToJson(summary);
   json["segments"] = SegmentsToJson(summary);
+  json["loops"] = LoopsToJson(summary);
   json["map"] = {{"keyframes", summary.num_keyframes},
                  {"points", summary.num_points},
                  {"lines", summary.num_lines}};

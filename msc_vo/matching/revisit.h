@@ -10,13 +10,14 @@
 
 namespace msc_vo {
 
-/// Pose of a frame in an inactive map, that of an older segment.
-struct MapRelocalization {
-  KeyframeId reference = kNoId;  ///< of the inactive map
+/// Pose of a frame in another part of the map than the one that it is tracked in: in an inactive
+/// map, that of an older segment, or in a part of its own map that it shares no landmarks with.
+struct Revisit {
+  KeyframeId reference = kNoId;  ///< of that part
   Rigid3 cam_from_reference;
-  /// Of the pose in the world of the inactive map, in the tangent of Rigid3Manifold.
+  /// Of the pose in the world of the reference, in the tangent of Rigid3Manifold.
   PoseCovariance covariance = PoseCovariance::Zero();
-  FrameMatches matches;  ///< inliers among the landmarks of the inactive map
+  FrameMatches matches;  ///< inliers among the landmarks of that part
 
   template <typename Archive>
   void Serialize(Archive& archive) {

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/mapping/loop_closer.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "msc_vo/factors/chi_square.h"
+#include "msc_vo/map/map_alignment.h"
+#include "msc_vo/map/path_covariance.h"
+#include "msc_vo/mapping/landmark_fusion.h"
+#include "msc_vo/mapping/map_correction.h"
+
+namespace msc_vo {
+
+namespace {
+
+// Visits that are kept, and the keyframes after which one is forgotten: the camera has left the
+// place.
+constexpr size_t kMaxVisits = 10;
+constexpr KeyframeId kMaxAge = 10;
+// Landmarks that two keyframes share if they hold the map together.
+constexpr int kMinShared = 20;
+// Standard deviations of an edge of the graph beyond its covariance, which holds the landmarks for
+// exact. Metres and radians.
+constexpr double kMapSigma = 0.001;
+constexpr double kMapRotationSigma = 0.001;
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+PoseCovariance MapCovariance() {
+  Vector6 variance;
+  variance << Eigen::Vector3d::Constant(kMapRotationSigma * kMapRotationSigma),
+      Eigen::Vector3d::Constant(kMapSigma * kMapSigma);
+  return variance.asDiagonal();
+}
+
+}  // namespace
+
+void LoopCloser::AddRevisit(KeyframeId keyframe, const PoseCovariance& covariance,
+                            const Revisit& revisit) {
+  visits_.erase(std::remove_if(
+                    visits_.begin(), visits_.end(),
+                    [keyframe](const Visit& visit) { return visit.keyframe < keyframe - kMaxAge; }),
+                visits_.end());
+  if (visits_.size() == kMaxVisits) visits_.erase(visits_.begin());
+  visits_.push_back({keyframe, covariance, revisit});
+}
+
+std::vector<LoopCloser::Visit> LoopCloser::AgreeingVisits(const Map& map) const {
+  std::vector<FrameInTwoMaps> frames;  // a: the map with drift, b: the older part
+  for (const Visit& visit : visits_) {
+    const Revisit& revisit = visit.revisit;
+    frames.push_back({map.CamFromWorld(visit.keyframe),
+                      revisit.cam_from_reference * map.CamFromWorld(revisit.reference),
+                      visit.covariance, revisit.covariance});
+  }
+  const std::optional<MapAlignment> alignment = AlignMaps(frames);
+  std::vector<Visit> agreeing;
+  for (size_t i = 0; alignment && i < visits_.size(); ++i) {
+    if (alignment->inliers[i]) agreeing.push_back(visits_[i]);
+  }
+  return agreeing;
+}
+
+PoseGraphEdge LoopCloser::EdgeOf(const Map& map, const Visit& visit) const {
+  const Revisit& revisit = visit.revisit;
+  const Rigid3 cam_from_world = revisit.cam_from_reference * map.CamFromWorld(revisit.reference);
+  const PoseCovariance camera =
+      CameraCovariance(cam_from_world, revisit.covariance) + MapCovariance();
+  return {revisit.reference, visit.keyframe, revisit.cam_from_reference,
+          CovarianceOfCamera(revisit.cam_from_reference, camera)};
+}
+
+bool LoopCloser::IsPossible(const Map& map, const Visit& visit) const {
+  const PoseGraphEdge edge = EdgeOf(map, visit);
+  const Rigid3 by_path = map.CamFromWorld(edge.to) * map.CamFromWorld(edge.from).Inverse();
+  return IsPossibleDrift(map, edge.from, edge.to, by_path, edge.to_from_from,
+                         CameraCovariance(edge.to_from_from, edge.covariance));
+}
+
+PoseGraph LoopCloser::MakeGraph(const Map& map) const {
+  PoseGraph graph;
+  const auto add = [&](KeyframeId from, KeyframeId to, const PoseCovariance& camera) {
+    const Rigid3 to_from_from = map.CamFromWorld(to) * map.CamFromWorld(from).Inverse();
+    graph.edges.push_back({from, to, to_from_from, CovarianceOfCamera(to_from_from, camera)});
+  };
+  KeyframeId last = kNoId;
+  for (const auto& [id, keyframe] : map.keyframes()) {
+    graph.poses[id] = keyframe.cam_from_world;
+    if (last != kNoId) add(last, id, PathCovariance(map, last, id) + MapCovariance());
+    for (const Map::Covisible& other : map.FindCovisible(id)) {
+      if (other.num_shared < kMinShared) break;
+      if (other.keyframe >= last) continue;  // each pair once, and none of the path twice
+      const Rigid3 to_from_from =
+          keyframe.cam_from_world * map.CamFromWorld(other.keyframe).Inverse();
+      add(other.keyframe, id,
+          TransportCovariance(to_from_from, *map.StepCovariance(other.keyframe)) +
+              *map.StepCovariance(id) + MapCovariance());
+    }
+    last = id;
+  }
+  for (const PoseGraphEdge& edge : loop_edges_) {
+    // With the relative pose after later bundle adjustment. A keyframe that was culled is
+    // represented by the one before it.
+    const auto* from = map.keyframes().FindUpTo(edge.from);
+    const auto* to = map.keyframes().FindUpTo(edge.to);
+    if (from == nullptr || to == nullptr || from->first == to->first) continue;
+    add(from->first, to->first, CameraCovariance(edge.to_from_from, edge.covariance));
+  }
+  return graph;
+}
+
+std::optional<LoopClosure> LoopCloser::TryClose(Map* map) {
+  visits_.erase(std::remove_if(visits_.begin(), visits_.end(),
+                               [map](const Visit& visit) {
+                                 return map->FindKeyframe(visit.keyframe) == nullptr ||
+                                        map->FindKeyframe(visit.revisit.reference) == nullptr;
+                               }),
+                visits_.end());
+  const std::vector<Visit> visits = AgreeingVisits(*map);
+  if (visits.empty()) return std::nullopt;
+  const auto refuse = [this] {
+    visits_.clear();
+    ++num_refused_;
+    return std::nullopt;
+  };
+  PoseGraph graph = MakeGraph(*map);
+  std::vector<PoseGraphEdge> new_edges;
+  for (const Visit& visit : visits) {
+    if (!IsPossible(*map, visit)) return refuse();
+    new_edges.push_back(EdgeOf(*map, visit));
+  }
+  graph.edges.insert(graph.edges.end(), new_edges.begin(), new_edges.end());
+  const std::vector<double> squared_errors = OptimizePoseGraph(&graph);
+  if (squared_errors.empty() ||
+      *std::max_element(squared_errors.begin(), squared_errors.end()) > kOutlierChiSquare[6]) {
+    return refuse();
+  }
+  const KeyframeId newest = visits.back().keyframe;
+  const Rigid3 old_cam_from_world = map->CamFromWorld(newest);
+  MoveKeyframes(graph.poses, map);
+  for (const Visit& visit : visits) {
+    MergeMatches(visit.keyframe, visit.revisit.matches, map);
+  }
+  loop_edges_.insert(loop_edges_.end(), new_edges.begin(), new_edges.end());
+  visits_.clear();
+  ++num_closed_;
+  return LoopClosure{newest, visits.back().revisit.reference, static_cast<int>(visits.size()),
+                     map->CamFromWorld(newest) * old_cam_from_world.Inverse()};
+}
+
+}  // namespace msc_vo

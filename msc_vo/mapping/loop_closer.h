@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "msc_vo/geometry/pose_covariance.h"
+#include "msc_vo/map/map.h"
+#include "msc_vo/matching/revisit.h"
+#include "msc_vo/pose_estimation/pose_graph.h"
+
+namespace msc_vo {
+
+/// A loop that was closed: the map shows one place once again.
+struct LoopClosure {
+  KeyframeId keyframe = kNoId;   ///< the newest one of the place
+  KeyframeId reference = kNoId;  ///< an older keyframe that shows the same place
+  int num_keyframes = 0;         ///< that agree on it
+  /// Pose of `keyframe` after the correction relative to before it, in its camera frame.
+  Rigid3 new_from_old_camera;
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, keyframe, reference, num_keyframes, new_from_old_camera);
+  }
+};
+
+/// Closes loops of a map. A loop is accepted if no test rejects it: several keyframes of a short
+/// part of the path agree on it, the correction is possible by the covariance of the path between
+/// both visits, and afterwards no edge of the pose graph contradicts another. A missed loop costs
+/// accuracy, a false one the map.
+class LoopCloser {
+ public:
+  /// Adds that a keyframe, the newest one, shows an older part of the map.
+  void AddRevisit(KeyframeId keyframe, const PoseCovariance& covariance, const Revisit& revisit);
+
+  /// Adds the loops of earlier sessions.
+  void AddEdges(const std::vector<PoseGraphEdge>& edges) {
+    loop_edges_.insert(loop_edges_.end(), edges.begin(), edges.end());
+  }
+  /// The measured poses of all closed loops.
+  const std::vector<PoseGraphEdge>& edges() const { return loop_edges_; }
+
+  /// Closes the loop of the last revisit if it is accepted: corrects the poses of all keyframes and
+  /// their landmarks, and merges the landmarks that both visits have of the same features.
+  std::optional<LoopClosure> TryClose(Map* map);
+
+  /// Loops of the run so far.
+  int num_closed() const { return num_closed_; }
+  /// Loops of the run so far that keyframes agreed on, but that were not accepted.
+  int num_refused() const { return num_refused_; }
+
+  /// Forgets the revisits: another map begins, or two are joined.
+  void Clear() { visits_.clear(); }
+
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    auto& [visits, edges, closed, refused] = *this;  // all members, or it does not compile
+    archive(visits, edges, closed, refused);
+  }
+
+ private:
+  // A keyframe that shows an older part of the map.
+  struct Visit {
+    KeyframeId keyframe = kNoId;
+    PoseCovariance covariance = PoseCovariance::Zero();
+    Revisit revisit;
+
+    template <typename Archive>
+    void Serialize(Archive& archive) {
+      archive.Fields(*this, keyframe, covariance, revisit);
+    }
+  };
+
+  // The recent visits that agree on a correction; empty if too few do.
+  std::vector<Visit> AgreeingVisits(const Map& map) const;
+  PoseGraphEdge EdgeOf(const Map& map, const Visit& visit) const;
+  // Whether the drift of the path can be as large as the correction by a visit.
+  bool IsPossible(const Map& map, const Visit& visit) const;
+  // The keyframes of the map, linked by odometry, by shared landmarks, and by the loops so far.
+  PoseGraph MakeGraph(const Map& map) const;
+
+  std::vector<Visit> visits_;
+  std::vector<PoseGraphEdge> loop_edges_;  // of the closed loops
+  int num_closed_ = 0;
+  int num_refused_ = 0;
+};
+
+}  // namespace msc_vo

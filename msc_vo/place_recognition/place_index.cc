@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/place_recognition/place_index.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+namespace msc_vo {
+
+void PlaceIndex::Add(KeyframeId keyframe, std::shared_ptr<const Frame> frame) {
+  keyframes_of_word_.resize(kNumBinaryWords);
+  if (free_slots_.empty()) {
+    free_slots_.push_back(static_cast<Slot>(entries_.size()));
+    entries_.emplace_back();
+  }
+  const Slot slot = free_slots_.back();
+  free_slots_.pop_back();
+  slots_[keyframe] = slot;
+  const std::vector<BinaryWord> words = WordsOf(*frame);
+  for (const BinaryWord word : words) keyframes_of_word_[word].push_back(slot);
+  entries_[slot] = {std::move(frame), static_cast<int>(words.size())};
+}
+
+void PlaceIndex::Remove(KeyframeId keyframe) {
+  const auto place = slots_.find(keyframe);
+  if (place == slots_.end()) return;
+  const Slot slot = place->second;
+  for (const BinaryWord word : WordsOf(*entries_[slot].frame)) {
+    std::vector<Slot>& slots = keyframes_of_word_[word];
+    *std::find(slots.begin(), slots.end(), slot) = slots.back();
+    slots.pop_back();
+  }
+  entries_[slot] = {};
+  free_slots_.push_back(slot);
+  slots_.erase(place);
+}
+
+void PlaceIndex::Update(const MapSnapshot& snapshot) {
+  std::set<KeyframeId> present;
+  const auto add_all = [&](const Map& map) {
+    for (const auto& [id, keyframe] : map.keyframes()) {
+      present.insert(present.end(), id);
+      const auto known = slots_.find(id);
+      if (known == slots_.end()) {
+        Add(id, keyframe.frame);
+      } else {
+        entries_[known->second].frame = keyframe.frame;  // with the same descriptors
+      }
+    }
+  };
+  for (const auto& map : snapshot.inactive_maps) add_all(*map);
+  add_all(snapshot.map);
+  std::vector<KeyframeId> gone;
+  for (const auto& [id, slot] : slots_) {
+    if (present.count(id) == 0) gone.push_back(id);
+  }
+  for (const KeyframeId id : gone) Remove(id);
+}
+
+std::vector<Place> PlaceIndex::Query(const Frame& frame, int max_places) const {
+  if (slots_.empty()) return {};
+  const double num_keyframes = size();
+  const std::vector<BinaryWord> words = WordsOf(frame);
+  std::vector<float> scores(entries_.size(), 0.0f);
+  for (const BinaryWord word : words) {
+    const std::vector<Slot>& slots = keyframes_of_word_[word];
+    if (slots.empty()) continue;
+    // 0 for a word that all keyframes have
+    const float weight = static_cast<float>(std::log(num_keyframes / slots.size()));
+    for (const Slot slot : slots) scores[slot] += weight;
+  }
+  std::vector<Place> places;
+  for (const auto& [id, slot] : slots_) {
+    if (scores[slot] <= 0.0f) continue;
+    places.push_back({id, scores[slot] / std::sqrt(static_cast<double>(words.size()) *
+                                                   entries_[slot].num_words)});
+  }
+  const auto is_better = [](const Place& a, const Place& b) {
+    return a.score != b.score ? a.score > b.score : a.keyframe > b.keyframe;
+  };
+  const auto end = places.begin() + std::min<size_t>(max_places, places.size());
+  std::partial_sort(places.begin(), end, places.end(), is_better);
+  places.erase(end, places.end());
+  return places;
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "msc_vo/map/map.h"
+#include "msc_vo/map/snapshot.h"
+#include "msc_vo/place_recognition/binary_words.h"
+
+namespace msc_vo {
+
+/// A keyframe that looks like a frame.
+struct Place {
+  KeyframeId keyframe = kNoId;
+  /// The words that the two share, each with the logarithm of its inverse keyframe frequency, over
+  /// the geometric mean of the numbers of their words.
+  double score = 0.0;
+};
+
+/// An inverted index of the words of keyframes. What it returns depends on the keyframes that are
+/// in it alone, not on the order in which they came and went.
+class PlaceIndex {
+ public:
+  /// Adds a keyframe that is not in the index.
+  void Add(KeyframeId keyframe, std::shared_ptr<const Frame> frame);
+  /// No effect if the keyframe is not in the index.
+  void Remove(KeyframeId keyframe);
+  /// Adds and removes keyframes so that the index has those of all maps of a snapshot.
+  void Update(const MapSnapshot& snapshot);
+
+  int size() const { return static_cast<int>(slots_.size()); }
+
+  /// The keyframes of the index that share words with the frame, best score first, then newest
+  /// first; at most `max_places`.
+  std::vector<Place> Query(const Frame& frame, int max_places) const;
+
+ private:
+  // Number of a keyframe while it is in the index.
+  using Slot = uint32_t;
+  struct Entry {
+    std::shared_ptr<const Frame> frame;  // null: the slot is free
+    int num_words = 0;
+  };
+
+  std::map<KeyframeId, Slot> slots_;
+  std::vector<Entry> entries_;  // by slot
+  std::vector<Slot> free_slots_;
+  std::vector<std::vector<Slot>> keyframes_of_word_;  // empty until the first keyframe is added
+};
+
+}  // namespace msc_vo

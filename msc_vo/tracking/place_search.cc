@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/tracking/place_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "msc_vo/geometry/angles.h"
+#include "msc_vo/map/observer_count.h"
+#include "msc_vo/map/path_covariance.h"
+#include "msc_vo/pose_estimation/relocalizer.h"
+#include "msc_vo/tracking/frame_pose.h"
+#include "msc_vo/tracking/pose_support.h"
+#include "msc_vo/tracking/search_budget.h"
+
+namespace msc_vo {
+
+namespace {
+
+// In 1/30 s, and at least one per frame: bounds the cost.
+constexpr int kKeyframesToTry = 1;
+// Score of a place, relative to the reference keyframe of the frame, from which on a part of the
+// same map is tried. Chosen by measurement, see docs/lab/loops.md.
+constexpr double kMinRelativeScore = 0.3;
+// Parts of the same map for which the covariance of the path is computed: bounds the cost.
+constexpr int kMaxCandidates = 20;
+
+size_t NumKeyframes(const InactiveMaps& maps) {
+  size_t count = 0;
+  for (const std::shared_ptr<const Map>& map : maps) count += map->keyframes().size();
+  return count;
+}
+
+// The keyframes of `places` that are, or are not, in a map.
+std::vector<KeyframeId> SelectBy(const std::vector<Place>& places, const Map& map, bool in_map) {
+  std::vector<KeyframeId> ids;
+  for (const Place& place : places) {
+    const bool is_in_map = map.FindKeyframe(place.keyframe) != nullptr;
+    if (is_in_map == in_map) ids.push_back(place.keyframe);
+  }
+  return ids;
+}
+
+// The keyframes that share landmarks with a frame, given its matches, and those that share
+// landmarks with its reference keyframe.
+std::set<KeyframeId> NeighboursOf(const FrameMatches& matches, KeyframeId reference,
+                                  const Map& map) {
+  ObserverCount observers(map);
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    for (const auto& match : OfKind<L>(matches)) {
+      if (const L* landmark = map.Find<L>(match.id)) observers.Add(*landmark);
+    }
+  });
+  std::set<KeyframeId> neighbours{reference};
+  for (const Map::Covisible& observer : observers.Ranked()) neighbours.insert(observer.keyframe);
+  for (const Map::Covisible& covisible : map.FindCovisible(reference)) {
+    neighbours.insert(covisible.keyframe);
+  }
+  return neighbours;
+}
+
+// Of the points of a frame, metres; 0 without any.
+double MedianDepth(const Frame& frame) {
+  std::vector<double> depths;
+  for (const PointFeature& point : frame.points) {
+    if (point.inverse_depth > 0.0) depths.push_back(1.0 / point.inverse_depth);
+  }
+  if (depths.empty()) return 0.0;
+  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
+  std::nth_element(depths.begin(), middle, depths.end());
+  return *middle;
+}
+
+// Covariance of the pose of a frame relative to a keyframe, apart from the landmarks that it was
+// tracked with, in its camera frame.
+PoseCovariance CovarianceSince(const TrackedFrame& tracked, const Map& map, KeyframeId keyframe) {
+  return TransportCovariance(tracked.cam_from_reference,
+                             PathCovariance(map, keyframe, tracked.reference)) +
+         CameraCovariance(tracked.cam_from_world, tracked.pose.covariance);
+}
+
+// Whether a frame and a keyframe can show the same surface, which is some `reach` metres away: the
+// keyframe is that near and looks in a similar direction, to three sigmas of the path between them.
+bool CanShowSame(const TrackedFrame& tracked, const Keyframe& keyframe, double reach,
+                 const PoseCovariance& covariance) {
+  constexpr double kMaxAngle = DegreesToRadians(60.0);  // features do not look alike beyond
+  const double rotation_sigma = std::sqrt(covariance.topLeftCorner<3, 3>().trace());
+  const double translation_sigma = std::sqrt(covariance.bottomRightCorner<3, 3>().trace());
+  const Rigid3 cam_from_keyframe = tracked.cam_from_world * keyframe.cam_from_world.Inverse();
+  const Eigen::Vector3d axis = cam_from_keyframe.rotation() * Eigen::Vector3d::UnitZ();
+  const double angle = std::atan2(axis.head<2>().norm(), axis.z());
+  return angle < kMaxAngle + 3.0 * rotation_sigma &&
+         cam_from_keyframe.translation().norm() < reach + 3.0 * translation_sigma;
+}
+
+// Whether the drift of the path can be as large as the correction by a revisit.
+bool IsPossible(const TrackedFrame& tracked, const Map& map, const Revisit& revisit) {
+  const Rigid3 by_path = tracked.cam_from_world * map.CamFromWorld(revisit.reference).Inverse();
+  const Rigid3 cam_from_world = revisit.cam_from_reference * map.CamFromWorld(revisit.reference);
+  return IsPossibleDrift(map, revisit.reference, tracked.reference, by_path,
+                         revisit.cam_from_reference,
+                         CameraCovariance(tracked.cam_from_world, tracked.pose.covariance) +
+                             CameraCovariance(cam_from_world, revisit.covariance));
+}
+
+}  // namespace
+
+std::vector<KeyframeId> TryOrder::Select(const std::vector<KeyframeId>& ranked, int num) {
+  std::vector<KeyframeId> selected;
+  if (ranked.empty()) return selected;
+  const size_t size = std::min<size_t>(num, ranked.size());
+  if (size > 1 || ranked.size() == 1 || num_frames_ % 2 == 0) selected.push_back(ranked.front());
+  ++num_frames_;
+  while (selected.size() < size) {
+    selected.push_back(ranked[1 + num_others_ % (ranked.size() - 1)]);
+    ++num_others_;
+  }
+  return selected;
+}
+
+void PlaceSearch::Update(const MapSnapshot& snapshot) {
+  const size_t num_keyframes =
+      snapshot.map.keyframes().size() + NumKeyframes(snapshot.inactive_maps);
+  if (snapshot.newest_keyframe == newest_ && num_keyframes == num_keyframes_) return;
+  index_.Update(snapshot);
+  newest_ = snapshot.newest_keyframe;
+  num_keyframes_ = num_keyframes;
+}
+
+std::vector<KeyframeId> PlaceSearch::SelectKeyframes(const Frame& frame, const Map& map, int num,
+                                                     TryOrder* order) const {
+  return order->Select(SelectBy(Rank(frame), map, true), num);
+}
+
+std::optional<Revisit> PlaceSearch::FindRevisit(const TrackedFrame& tracked, bool is_keyframe,
+                                                const MapSnapshot& snapshot, double seconds) {
+  if (tracked.status != TrackingStatus::kTracked) return std::nullopt;
+  const double timestamp = tracked.frame->timestamp;
+  if (timestamp - last_success_ < options_.segments.search_interval) return std::nullopt;
+  std::optional<Revisit> found = FindInInactiveMaps(tracked, snapshot, seconds);
+  if (!found && is_keyframe && options_.find_loops) found = FindLoop(tracked, snapshot);
+  if (found) last_success_ = timestamp;
+  return found;
+}
+
+std::optional<Revisit> PlaceSearch::FindInInactiveMaps(const TrackedFrame& tracked,
+                                                       const MapSnapshot& snapshot,
+                                                       double seconds) {
+  const InactiveMaps& maps = snapshot.inactive_maps;
+  if (maps.empty()) return std::nullopt;
+  const int num = KeyframesToTry(kKeyframesToTry, seconds, NumKeyframes(maps));
+  const std::vector<Place> places = Rank(*tracked.frame);
+  for (const KeyframeId id : order_.Select(SelectBy(places, snapshot.map, false), num)) {
+    const Map& map = *FindMapOf(maps, id);
+    std::optional<Revisit> found =
+        Relocalize(tracked, snapshot.noise_scale, map, *map.FindKeyframe(id));
+    if (!found) continue;
+    if (IsAmbiguous(tracked, snapshot.noise_scale, map, *found, places)) return std::nullopt;
+    return found;
+  }
+  return std::nullopt;
+}
+
+bool PlaceSearch::IsAmbiguous(const TrackedFrame& tracked, const NoiseScale& noise_scale,
+                              const Map& map, const Revisit& found,
+                              const std::vector<Place>& places) const {
+  constexpr int kMaxRivals = 3;             // bounds the cost
+  constexpr double kMinRivalMatches = 0.8;  // relative to those of the place that was found
+  const std::set<KeyframeId> neighbours = NeighboursOf(found.matches, found.reference, map);
+  const Rigid3 cam_from_world = found.cam_from_reference * map.CamFromWorld(found.reference);
+  int num_rivals = 0;
+  for (const Place& place : places) {
+    const Keyframe* keyframe = map.FindKeyframe(place.keyframe);
+    if (keyframe == nullptr || neighbours.count(place.keyframe) > 0) continue;
+    if (++num_rivals > kMaxRivals) break;
+    const std::optional<Revisit> rival = Relocalize(tracked, noise_scale, map, *keyframe);
+    if (!rival) continue;
+    if (Sum(SizesOf(rival->matches)) < kMinRivalMatches * Sum(SizesOf(found.matches))) continue;
+    // The same place, but for the drift between two visits?
+    const Rigid3 rival_from_world = rival->cam_from_reference * map.CamFromWorld(rival->reference);
+    const bool is_same = IsPossibleDrift(
+        map, rival->reference, found.reference,
+        cam_from_world * map.CamFromWorld(rival->reference).Inverse(), rival->cam_from_reference,
+        CameraCovariance(cam_from_world, found.covariance) +
+            CameraCovariance(rival_from_world, rival->covariance));
+    if (!is_same) return true;
+  }
+  return false;
+}
+
+std::optional<Revisit> PlaceSearch::FindLoop(const TrackedFrame& tracked,
+                                             const MapSnapshot& snapshot) const {
+  const Map& map = snapshot.map;
+  const std::vector<Place> places = Rank(*tracked.frame);
+  const auto reference = std::find_if(places.begin(), places.end(), [&](const Place& place) {
+    return place.keyframe == tracked.reference;
+  });
+  if (reference == places.end()) return std::nullopt;
+  const std::set<KeyframeId> neighbours = NeighboursOf(tracked.matches, tracked.reference, map);
+  const double reach = MedianDepth(*tracked.frame);
+  // Not smaller than that of any path in the map: most keyframes fail with it already.
+  const PoseCovariance widest = CovarianceSince(tracked, map, map.keyframes().front().first) +
+                                CovarianceSince(tracked, map, map.keyframes().back().first);
+  int num_candidates = 0;
+  for (const Place& place : places) {
+    if (place.score < kMinRelativeScore * reference->score) break;
+    const Keyframe* keyframe = map.FindKeyframe(place.keyframe);
+    if (keyframe == nullptr || neighbours.count(place.keyframe) > 0) continue;
+    const auto can_show = [&](const PoseCovariance& covariance) {
+      return CanShowSame(tracked, *keyframe, reach, covariance);
+    };
+    if (!can_show(widest)) continue;
+    if (++num_candidates > kMaxCandidates) break;
+    if (!can_show(CovarianceSince(tracked, map, keyframe->id))) continue;
+    std::optional<Revisit> found = Relocalize(tracked, snapshot.noise_scale, map, *keyframe);
+    if (found && IsPossible(tracked, map, *found)) return found;
+    return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+std::optional<Revisit> PlaceSearch::Relocalize(const TrackedFrame& tracked,
+                                               const NoiseScale& noise_scale, const Map& map,
+                                               const Keyframe& keyframe) const {
+  const Frame& frame = *tracked.frame;
+  const std::optional<Relocalization> hit = msc_vo::Relocalize(
+      options_.relocalizer, options_.matchers.line_matcher, frame, map, keyframe);
+  if (!hit) return std::nullopt;
+  const std::vector<PoseFactor> no_factors;
+  PoseEstimator estimator(options_, map, noise_scale, no_factors);
+  const std::optional<FramePose> first =
+      estimator.Estimate(options_.pose, frame, hit->cam_from_world, hit->matches);
+  if (!first) return std::nullopt;
+  // The local map confirms the pose with the landmarks of several keyframes.
+  const LocalMap local = SelectLocalMap(map, frame, first->cam_from_world, first->matches,
+                                        keyframe.id, options_.max_local_keyframes);
+  const std::optional<FramePose> pose =
+      estimator.MatchAndEstimate(options_.pose, frame, local, options_.local_map_radius,
+                                 first->cam_from_world, LandmarkInliers(first->matches));
+  if (!pose || ClassifyStatus(options_, pose->summary) != TrackingStatus::kTracked) {
+    return std::nullopt;
+  }
+  const FrameMatches matches = LandmarkInliers(pose->matches);
+  if (!HasComparableMatchRatio(matches, local, tracked)) return std::nullopt;
+  return Revisit{local.reference,
+                 pose->cam_from_world * map.CamFromWorld(local.reference).Inverse(),
+                 pose->summary.covariance, matches};
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/mapping/loop_closer.h"
+
+#include <cmath>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "msc_vo/geometry/so3.h"
+
+namespace msc_vo {
+namespace {
+
+constexpr int kNumKeyframes = 40;
+constexpr int kNumInRound = 36;  // keyframe 36 is where keyframe 0 was
+
+// A camera that walks on a circle of 2 m; the odometry turns a little too far with every step.
+class LoopCloserTest : public testing::Test {
+ protected:
+  LoopCloserTest() {
+    PoseCovariance step = PoseCovariance::Zero();
+    step.diagonal().head<3>().setConstant(std::pow(0.001, 2));
+    step.diagonal().tail<3>().setConstant(std::pow(0.001, 2));
+    const Rigid3 drift(ExpSO3({0.0, 0.0005, 0.0}), {0.0, 0.0, 0.0005});
+    Rigid3 pose = Truth(0);
+    for (int i = 0; i < kNumKeyframes; ++i) {
+      if (i > 0) pose = drift * Truth(i) * Truth(i - 1).Inverse() * pose;
+      auto frame = std::make_shared<Frame>();
+      frame->points.resize(1);
+      map_.AddKeyframe(frame, pose);
+      map_.SetStepCovariance(i, step);
+    }
+  }
+
+  static Rigid3 Truth(int i) {
+    const double angle = 2.0 * M_PI * i / kNumInRound;
+    return Rigid3(ExpSO3({0.0, angle, 0.0}), {2.0 * std::sin(angle), 0.0, 2.0 * std::cos(angle)})
+        .Inverse();
+  }
+  double Error(KeyframeId id) const {
+    return (map_.CamFromWorld(id).OriginInSource() - Truth(static_cast<int>(id)).OriginInSource())
+        .norm();
+  }
+  // Keyframe `i` shows the place of keyframe `reference`, `offset` metres from the truth.
+  void Revisit(int i, int reference, double offset) {
+    msc_vo::Revisit revisit;
+    revisit.reference = reference;
+    const Rigid3 shift(Eigen::Quaterniond::Identity(), {offset, 0.0, 0.0});  // of the world
+    revisit.cam_from_reference = Truth(i) * shift * Truth(reference).Inverse();
+    revisit.covariance = kCovariance;
+    closer_.AddRevisit(i, kCovariance, revisit);
+  }
+
+  static inline const PoseCovariance kCovariance = 1e-6 * PoseCovariance::Identity();
+  Map map_;
+  LoopCloser closer_;
+};
+
+TEST_F(LoopCloserTest, CorrectsThePathIfThreeKeyframesAgree) {
+  const LandmarkId old = map_.Add<PointLandmark>(1, 0, {0.0, 0.0, 1.0});
+  const LandmarkId copy = map_.Add<PointLandmark>(37, 0, {0.0, 0.0, 1.0});
+  for (const int i : {36, 37}) {
+    Revisit(i, i - kNumInRound, 0.0);
+    EXPECT_FALSE(closer_.TryClose(&map_));
+  }
+  const double before = Error(38), middle_before = Error(20);
+  msc_vo::Revisit last{2, Truth(38) * Truth(2).Inverse(), kCovariance, {}};
+  last.matches.points.push_back({0, old});
+  closer_.AddRevisit(38, kCovariance, last);
+  const std::optional<LoopClosure> loop = closer_.TryClose(&map_);
+  ASSERT_TRUE(loop);
+  EXPECT_EQ(loop->keyframe, 38);
+  EXPECT_EQ(loop->reference, 2);
+  EXPECT_EQ(loop->num_keyframes, 3);
+  EXPECT_EQ(map_.CamFromWorld(0).params, Truth(0).params);
+  EXPECT_LT(Error(38), 0.2 * before);
+  EXPECT_LT(Error(20), middle_before);
+  EXPECT_NEAR(loop->new_from_old_camera.translation().norm(), before, 0.2 * before);
+  EXPECT_NE(FindObservation(*map_.Find<PointLandmark>(old), 38), nullptr);
+  EXPECT_NE(map_.Find<PointLandmark>(copy), nullptr);  // no match says that it is the same
+  EXPECT_EQ(closer_.num_closed(), 1);
+  EXPECT_EQ(closer_.num_refused(), 0);
+  EXPECT_FALSE(closer_.TryClose(&map_));  // it is closed
+}
+
+TEST_F(LoopCloserTest, RefusesWhatDriftCannotExplain) {
+  const Map before = map_.Share();
+  for (const int i : {36, 37, 38}) {
+    Revisit(i, i - kNumInRound, 1.5);  // the next room looks alike
+    EXPECT_FALSE(closer_.TryClose(&map_));
+  }
+  EXPECT_EQ(closer_.num_refused(), 1);
+  EXPECT_EQ(closer_.num_closed(), 0);
+  for (int i = 0; i < kNumKeyframes; ++i) {
+    EXPECT_EQ(map_.CamFromWorld(i).params, before.CamFromWorld(i).params) << i;
+  }
+}
+
+TEST_F(LoopCloserTest, WaitsForKeyframesThatAgree) {
+  const double offsets[] = {0.2, -0.3, 0.6, -0.9};
+  for (int i = 0; i < 4; ++i) {
+    Revisit(kNumInRound + i, i, offsets[i]);
+    EXPECT_FALSE(closer_.TryClose(&map_));
+  }
+  EXPECT_EQ(closer_.num_refused(), 0);
+}
+
+TEST_F(LoopCloserTest, ForgetsKeyframesThatWereCulled) {
+  for (const int i : {36, 37, 38}) Revisit(i, i - kNumInRound, 0.0);
+  map_.RemoveKeyframe(1, 2);
+  EXPECT_FALSE(closer_.TryClose(&map_));
+}
+
+}  // namespace
+}  // namespace msc_vo
