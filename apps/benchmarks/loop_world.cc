@@ -17,21 +17,6 @@ constexpr int kMostImages = 400;
 constexpr int kViewStep = 5;       // images per view in which returns are searched: half a second
 constexpr int kMinOldPoints = 10;  // of an earlier visit, by which a frame is back
 
-SyntheticSequenceOptions SequenceOptionsOf(const LoopWorldOptions& options) {
-  SyntheticSequenceOptions sequence;
-  sequence.scene = options.scene;
-  sequence.seed = options.seed;
-  sequence.walk = {options.path, options.returns};
-  sequence.width = 320;
-  sequence.height = 240;
-  sequence.fps = 10.0;
-  sequence.kinect_depth = true;
-  sequence.quick = true;
-  sequence.path.speed = 0.55;                        // metres/second
-  sequence.path.turn_rate = DegreesToRadians(55.0);  // radians/second
-  return sequence;
-}
-
 bool IsFalse(const LoopWorld& world, const ClaimedPlace& claim) {
   const int older = static_cast<int>(claim.older), newer = static_cast<int>(claim.newer);
   const SyntheticSequence& sequence = world.sequence();
@@ -54,7 +39,7 @@ SceneKind LookAlikeKind(int index) {
 
 LoopWorld::LoopWorld(const LoopWorldOptions& options)
     : scene_(options.scene),
-      sequence_(SequenceOptionsOf(options)),
+      sequence_(QuickWalk(options.scene, options.seed, {options.path, options.returns})),
       num_images_(std::min(kMostImages, sequence_.WalkLength().value_or(kMostImages))) {}
 
 const std::string& LoopWorld::name() const { return SceneKindNames()[static_cast<int>(scene_)]; }

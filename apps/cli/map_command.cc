@@ -38,7 +38,7 @@ void PrintInfo(const std::string& file) {
     std::cout << "submap " << submap.id << ": " << submap.num_keyframes << " keyframes, "
               << submap.num_points << " points, " << submap.num_lines << " lines\n";
   }
-  std::cout << summary.num_loops << " loops" << std::endl;
+  std::cout << summary.num_loop_edges << " loop edges" << std::endl;
 }
 
 int Run(const MapCommandArguments& arguments) {

@@ -75,13 +75,14 @@ RunMap::RunMap(const MapArguments& arguments, const std::string& session, double
 }
 
 // The file must be as this run left it: with the sessions that it began with, and possibly itself.
+// The number of its worlds is then also that of the run.
 void RunMap::CheckResumable(const MapContents& run) const {
   const std::vector<MapSession>& saved = earlier_.sessions;
   const std::vector<MapSession>& own = run.sessions;
   const bool is_own = (saved.size() == own.size() || saved.size() + 1 == own.size()) &&
                       std::equal(saved.begin(), saved.end(), own.begin(), AreSame);
   if (is_own) return;
-  throw std::runtime_error(arguments_.map +
+  throw std::runtime_error((localizes() ? arguments_.localize : arguments_.map) +
                            ": has been written by another run since; start a new run without "
                            "--resume");
 }
@@ -92,7 +93,7 @@ void RunMap::Begin(Odometry* odometry) {
     return;
   }
   const std::optional<MapContents> run = odometry->ShareMaps(session_);
-  if (run && writer_) CheckResumable(*run);
+  if (run && (writer_ || localizes())) CheckResumable(*run);
   earlier_ = {};
 }
 

@@ -7,6 +7,13 @@
 
 namespace msc_vo {
 
+PoseCovariance IsotropicCovariance(double rotation_sigma, double translation_sigma) {
+  PoseCovariance covariance = PoseCovariance::Zero();
+  covariance.diagonal().head<3>().setConstant(rotation_sigma * rotation_sigma);
+  covariance.diagonal().tail<3>().setConstant(translation_sigma * translation_sigma);
+  return covariance;
+}
+
 PoseCovariance ComposeCovariances(const Rigid3& c_from_b, const PoseCovariance& covariance_c_from_b,
                                   const Rigid3& b_from_a,
                                   const PoseCovariance& covariance_b_from_a) {

@@ -13,6 +13,10 @@ namespace msc_vo {
 /// (radians), then translation (metres).
 using PoseCovariance = Eigen::Matrix<double, 6, 6>;
 
+/// Independent errors of equal standard deviations: of the rotation vector (radians) and of the
+/// translation (metres).
+PoseCovariance IsotropicCovariance(double rotation_sigma, double translation_sigma);
+
 /// Covariance of c_from_a = c_from_b * b_from_a, whose factors have independent errors.
 PoseCovariance ComposeCovariances(const Rigid3& c_from_b, const PoseCovariance& covariance_c_from_b,
                                   const Rigid3& b_from_a,

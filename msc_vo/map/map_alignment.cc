@@ -4,7 +4,6 @@
 #include "msc_vo/map/map_alignment.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <Eigen/Cholesky>
@@ -19,11 +18,6 @@ namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
-
-// Standard deviations of a pose that its covariance lacks, because that holds the landmarks for
-// exact: the error of a map within one view. Metres and radians.
-constexpr double kMapSigma = 0.01;
-constexpr double kMapRotationSigma = DegreesToRadians(0.3);
 
 // Tangent vector from `a` to `b` in Rigid3Manifold.
 Vector6 Difference(const Rigid3& b, const Rigid3& a) {
@@ -45,13 +39,9 @@ Rigid3 Mismatch(const FrameInTwoMaps& frame, const Rigid3& a_from_b) {
 
 // Covariance of the mismatch of a frame.
 Matrix6 MismatchCovariance(const FrameInTwoMaps& frame) {
-  Vector6 map_variance;
-  map_variance << Eigen::Vector3d::Constant(std::pow(kMapRotationSigma, 2)),
-      Eigen::Vector3d::Constant(kMapSigma * kMapSigma);
-  Matrix6 covariance = CameraCovariance(frame.cam_from_a, frame.covariance_a) +
-                       CameraCovariance(frame.cam_from_b, frame.covariance_b);
-  covariance.diagonal() += 2.0 * map_variance;  // both maps
-  return covariance;
+  return CameraCovariance(frame.cam_from_a, frame.covariance_a) +
+         CameraCovariance(frame.cam_from_b, frame.covariance_b) +
+         2.0 * ViewCovariance();  // both maps
 }
 
 Vector6 MismatchVector(const FrameInTwoMaps& frame, const Rigid3& a_from_b) {
@@ -103,6 +93,12 @@ void Refine(const std::vector<FrameInTwoMaps>& frames, const std::vector<Matrix6
 }
 
 }  // namespace
+
+PoseCovariance ViewCovariance() {
+  constexpr double kSigma = 0.01;  // metres
+  constexpr double kRotationSigma = DegreesToRadians(0.3);
+  return IsotropicCovariance(kRotationSigma, kSigma);
+}
 
 std::optional<MapAlignment> AlignMaps(const std::vector<FrameInTwoMaps>& frames) {
   std::vector<Matrix6> covariances;

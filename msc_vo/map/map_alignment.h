@@ -19,6 +19,10 @@ struct FrameInTwoMaps {
   PoseCovariance covariance_b = PoseCovariance::Zero();
 };
 
+/// Covariance that a pose in a map lacks, because its own holds the landmarks for exact: the error
+/// of a map within one view, 10 mm and 0.3 degrees (docs/lab/segments.md), in the camera frame.
+PoseCovariance ViewCovariance();
+
 /// Frames that must agree on an alignment. Two may err in the same way; one cannot be checked.
 constexpr int kMinAlignedFrames = 3;
 

@@ -40,7 +40,7 @@ struct SavedSubMap {
 struct MapContents {
   std::vector<MapSession> sessions;  ///< in order of their keyframes; at least one
   std::vector<SavedSubMap> submaps;  ///< by ascending id
-  std::vector<PoseGraphEdge> loops;  ///< that were closed
+  std::vector<PoseGraphEdge> loops;  ///< of the keyframes that closed loops
 };
 
 }  // namespace msc_vo

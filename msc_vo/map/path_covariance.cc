@@ -4,7 +4,6 @@
 #include "msc_vo/map/path_covariance.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <Eigen/Cholesky>
 
@@ -16,7 +15,8 @@ namespace msc_vo {
 
 namespace {
 
-// Variance of a step relative to that of the pose, which holds the landmarks for exact.
+// Variance of a step relative to that of the pose, which holds the landmarks for exact: they err as
+// well, and neighbours share their errors, so that those of the steps add up faster.
 constexpr double kStepScale = 4.0;
 // What errors of the calibration and of the depth sensor add, which are the same in every step: per
 // metre of the path. Both are measured, see docs/lab/loops.md.
@@ -39,9 +39,7 @@ PoseCovariance PathCovariance(const Map& map, KeyframeId a, KeyframeId b) {
     before_from_world = step_from_world;
     sum += TransportCovariance(b_from_world * step_from_world.Inverse(), kStepScale * *step);
   }
-  sum.diagonal().head<3>().array() += std::pow(kSystematicRotationSigma * length, 2);
-  sum.diagonal().tail<3>().array() += std::pow(kSystematicSigma * length, 2);
-  return sum;
+  return sum + IsotropicCovariance(kSystematicRotationSigma * length, kSystematicSigma * length);
 }
 
 bool IsPossibleDrift(const Map& map, KeyframeId a, KeyframeId b, const Rigid3& by_path,

@@ -64,7 +64,7 @@ MapFileSummary SummarizeMap(const std::string& path) {
     summary.version = static_cast<int>(database.Integer("PRAGMA user_version"));
     summary.num_bytes =
         database.Integer("PRAGMA page_count") * database.Integer("PRAGMA page_size");
-    summary.num_loops = database.Integer("SELECT count(*) FROM loop");
+    summary.num_loop_edges = database.Integer("SELECT count(*) FROM loop");
     SqliteStatement program = database.Prepare("SELECT program FROM map");
     if (program.Step()) summary.program = program.Bytes(0);
     AddSessions(database, &summary);

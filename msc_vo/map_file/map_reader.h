@@ -36,8 +36,8 @@ struct MapFileSummary {
   std::string program;  ///< that wrote it last
   std::vector<Session> sessions;
   std::vector<SubMap> submaps;
-  int64_t num_loops = 0;
-  int64_t num_bytes = 0;  ///< of the file
+  int64_t num_loop_edges = 0;  ///< between keyframes; several for each loop
+  int64_t num_bytes = 0;       ///< of the file
 };
 
 /// Describes a map without loading it. Throws as LoadMap().

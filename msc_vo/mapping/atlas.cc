@@ -36,6 +36,7 @@ void Atlas::BeginWith(std::vector<SavedSubMap> submaps) {
     submap.map = std::move(saved.map);
     submap.map.BeginSession();
     if (saved.axes) submap.axes.Restore(*saved.axes);
+    submap.noise.Restore(saved.noise_scale);
     current_.map.ContinueIds(submap.map.next_keyframe(), submap.map.next_landmark());
     inactive_.push_back(std::move(submap));
     inactive_maps_.push_back(Share(&inactive_.back()));

@@ -5,7 +5,6 @@
 
 #include <utility>
 
-#include "msc_vo/geometry/angles.h"
 #include "msc_vo/geometry/pose_covariance.h"
 
 namespace msc_vo {
@@ -29,12 +28,7 @@ void AddObservations(const KeyframePacket& packet, KeyframeId keyframe, Map* map
 // the keyframes of others.
 PoseCovariance StepCovariance(const KeyframePacket& packet, const Rigid3& cam_from_world) {
   if (packet.reference != kNoId) return CameraCovariance(cam_from_world, packet.covariance);
-  constexpr double kSigma = 0.01;  // metres
-  constexpr double kRotationSigma = DegreesToRadians(0.3);
-  PoseCovariance covariance = PoseCovariance::Zero();
-  covariance.diagonal().head<3>().setConstant(kRotationSigma * kRotationSigma);
-  covariance.diagonal().tail<3>().setConstant(kSigma * kSigma);
-  return covariance;
+  return ViewCovariance();
 }
 
 }  // namespace
@@ -60,7 +54,7 @@ void KeyframeInserter::Insert(const KeyframePacket& packet, std::shared_ptr<cons
   summary->submap = atlas->current().id;
   AddObservations(packet, newest_, map);
   if (packet.revisit && !map->KnowsKeyframe(packet.revisit->reference)) {
-    joiner_.Add(newest_, packet.covariance, *packet.revisit);
+    joiner_.Add({newest_, packet.covariance, *packet.revisit});
     summary->join = joiner_.TryJoin(atlas);
   }
   summary->num_refused_joins = joiner_.num_refused();

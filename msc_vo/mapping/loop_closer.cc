@@ -4,76 +4,60 @@
 #include "msc_vo/mapping/loop_closer.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "msc_vo/factors/chi_square.h"
 #include "msc_vo/map/map_alignment.h"
 #include "msc_vo/map/path_covariance.h"
-#include "msc_vo/mapping/landmark_fusion.h"
 #include "msc_vo/mapping/map_correction.h"
 
 namespace msc_vo {
 
 namespace {
 
-// Visits that are kept, and the keyframes after which one is forgotten: the camera has left the
-// place.
-constexpr size_t kMaxVisits = 10;
+// Keyframes after which a visit is forgotten: the camera has left the place.
 constexpr KeyframeId kMaxAge = 10;
 // Landmarks that two keyframes share if they hold the map together.
 constexpr int kMinShared = 20;
-// Standard deviations of an edge of the graph beyond its covariance, which holds the landmarks for
-// exact. Metres and radians.
-constexpr double kMapSigma = 0.001;
-constexpr double kMapRotationSigma = 0.001;
+// Standard deviations of an edge of the graph beyond its covariance: those of a pose in a window,
+// of which the covariance of coinciding keyframes has nothing. A milliradian is a millimetre at 1
+// m.
+constexpr double kEdgeSigma = 0.001;          // metres
+constexpr double kEdgeRotationSigma = 0.001;  // radians
 
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-
-PoseCovariance MapCovariance() {
-  Vector6 variance;
-  variance << Eigen::Vector3d::Constant(kMapRotationSigma * kMapRotationSigma),
-      Eigen::Vector3d::Constant(kMapSigma * kMapSigma);
-  return variance.asDiagonal();
-}
+PoseCovariance EdgeCovariance() { return IsotropicCovariance(kEdgeRotationSigma, kEdgeSigma); }
 
 }  // namespace
 
-void LoopCloser::AddRevisit(KeyframeId keyframe, const PoseCovariance& covariance,
-                            const Revisit& revisit) {
-  visits_.erase(std::remove_if(
-                    visits_.begin(), visits_.end(),
-                    [keyframe](const Visit& visit) { return visit.keyframe < keyframe - kMaxAge; }),
-                visits_.end());
-  if (visits_.size() == kMaxVisits) visits_.erase(visits_.begin());
-  visits_.push_back({keyframe, covariance, revisit});
+void LoopCloser::AddRevisit(const KeyframeRevisit& visit) {
+  const KeyframeId oldest = visit.keyframe - kMaxAge;
+  visits_.erase(
+      std::remove_if(visits_.begin(), visits_.end(),
+                     [oldest](const KeyframeRevisit& other) { return other.keyframe < oldest; }),
+      visits_.end());
+  AddRecent(visit, &visits_);
 }
 
-std::vector<LoopCloser::Visit> LoopCloser::AgreeingVisits(const Map& map) const {
-  std::vector<FrameInTwoMaps> frames;  // a: the map with drift, b: the older part
-  for (const Visit& visit : visits_) {
-    const Revisit& revisit = visit.revisit;
-    frames.push_back({map.CamFromWorld(visit.keyframe),
-                      revisit.cam_from_reference * map.CamFromWorld(revisit.reference),
-                      visit.covariance, revisit.covariance});
-  }
+std::vector<KeyframeRevisit> LoopCloser::AgreeingVisits(const Map& map) const {
+  std::vector<FrameInTwoMaps> frames;
+  for (const KeyframeRevisit& visit : visits_) frames.push_back(InTwoMaps(visit, map, map));
   const std::optional<MapAlignment> alignment = AlignMaps(frames);
-  std::vector<Visit> agreeing;
+  std::vector<KeyframeRevisit> agreeing;
   for (size_t i = 0; alignment && i < visits_.size(); ++i) {
     if (alignment->inliers[i]) agreeing.push_back(visits_[i]);
   }
   return agreeing;
 }
 
-PoseGraphEdge LoopCloser::EdgeOf(const Map& map, const Visit& visit) const {
+PoseGraphEdge LoopCloser::EdgeOf(const Map& map, const KeyframeRevisit& visit) const {
   const Revisit& revisit = visit.revisit;
   const Rigid3 cam_from_world = revisit.cam_from_reference * map.CamFromWorld(revisit.reference);
   const PoseCovariance camera =
-      CameraCovariance(cam_from_world, revisit.covariance) + MapCovariance();
+      CameraCovariance(cam_from_world, revisit.covariance) + EdgeCovariance();
   return {revisit.reference, visit.keyframe, revisit.cam_from_reference,
           CovarianceOfCamera(revisit.cam_from_reference, camera)};
 }
 
-bool LoopCloser::IsPossible(const Map& map, const Visit& visit) const {
+bool LoopCloser::IsPossible(const Map& map, const KeyframeRevisit& visit) const {
   const PoseGraphEdge edge = EdgeOf(map, visit);
   const Rigid3 by_path = map.CamFromWorld(edge.to) * map.CamFromWorld(edge.from).Inverse();
   return IsPossibleDrift(map, edge.from, edge.to, by_path, edge.to_from_from,
@@ -89,7 +73,7 @@ PoseGraph LoopCloser::MakeGraph(const Map& map) const {
   KeyframeId last = kNoId;
   for (const auto& [id, keyframe] : map.keyframes()) {
     graph.poses[id] = keyframe.cam_from_world;
-    if (last != kNoId) add(last, id, PathCovariance(map, last, id) + MapCovariance());
+    if (last != kNoId) add(last, id, PathCovariance(map, last, id) + EdgeCovariance());
     for (const Map::Covisible& other : map.FindCovisible(id)) {
       if (other.num_shared < kMinShared) break;
       if (other.keyframe >= last) continue;  // each pair once, and none of the path twice
@@ -97,7 +81,7 @@ PoseGraph LoopCloser::MakeGraph(const Map& map) const {
           keyframe.cam_from_world * map.CamFromWorld(other.keyframe).Inverse();
       add(other.keyframe, id,
           TransportCovariance(to_from_from, *map.StepCovariance(other.keyframe)) +
-              *map.StepCovariance(id) + MapCovariance());
+              *map.StepCovariance(id) + EdgeCovariance());
     }
     last = id;
   }
@@ -114,12 +98,12 @@ PoseGraph LoopCloser::MakeGraph(const Map& map) const {
 
 std::optional<LoopClosure> LoopCloser::TryClose(Map* map) {
   visits_.erase(std::remove_if(visits_.begin(), visits_.end(),
-                               [map](const Visit& visit) {
+                               [map](const KeyframeRevisit& visit) {
                                  return map->FindKeyframe(visit.keyframe) == nullptr ||
                                         map->FindKeyframe(visit.revisit.reference) == nullptr;
                                }),
                 visits_.end());
-  const std::vector<Visit> visits = AgreeingVisits(*map);
+  const std::vector<KeyframeRevisit> visits = AgreeingVisits(*map);
   if (visits.empty()) return std::nullopt;
   const auto refuse = [this] {
     visits_.clear();
@@ -128,7 +112,7 @@ std::optional<LoopClosure> LoopCloser::TryClose(Map* map) {
   };
   PoseGraph graph = MakeGraph(*map);
   std::vector<PoseGraphEdge> new_edges;
-  for (const Visit& visit : visits) {
+  for (const KeyframeRevisit& visit : visits) {
     if (!IsPossible(*map, visit)) return refuse();
     new_edges.push_back(EdgeOf(*map, visit));
   }
@@ -141,7 +125,7 @@ std::optional<LoopClosure> LoopCloser::TryClose(Map* map) {
   const KeyframeId newest = visits.back().keyframe;
   const Rigid3 old_cam_from_world = map->CamFromWorld(newest);
   MoveKeyframes(graph.poses, map);
-  for (const Visit& visit : visits) {
+  for (const KeyframeRevisit& visit : visits) {
     MergeMatches(visit.keyframe, visit.revisit.matches, map);
   }
   loop_edges_.insert(loop_edges_.end(), new_edges.begin(), new_edges.end());

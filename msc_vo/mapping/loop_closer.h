@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "msc_vo/geometry/pose_covariance.h"
+#include "msc_vo/geometry/rigid3.h"
 #include "msc_vo/map/map.h"
-#include "msc_vo/matching/revisit.h"
+#include "msc_vo/mapping/keyframe_revisit.h"
 #include "msc_vo/pose_estimation/pose_graph.h"
 
 namespace msc_vo {
@@ -33,8 +33,8 @@ struct LoopClosure {
 /// accuracy, a false one the map.
 class LoopCloser {
  public:
-  /// Adds that a keyframe, the newest one, shows an older part of the map.
-  void AddRevisit(KeyframeId keyframe, const PoseCovariance& covariance, const Revisit& revisit);
+  /// Adds the newest keyframe, which shows an older part of the map.
+  void AddRevisit(const KeyframeRevisit& visit);
 
   /// Adds the loops of earlier sessions.
   void AddEdges(const std::vector<PoseGraphEdge>& edges) {
@@ -63,27 +63,15 @@ class LoopCloser {
   }
 
  private:
-  // A keyframe that shows an older part of the map.
-  struct Visit {
-    KeyframeId keyframe = kNoId;
-    PoseCovariance covariance = PoseCovariance::Zero();
-    Revisit revisit;
-
-    template <typename Archive>
-    void Serialize(Archive& archive) {
-      archive.Fields(*this, keyframe, covariance, revisit);
-    }
-  };
-
   // The recent visits that agree on a correction; empty if too few do.
-  std::vector<Visit> AgreeingVisits(const Map& map) const;
-  PoseGraphEdge EdgeOf(const Map& map, const Visit& visit) const;
+  std::vector<KeyframeRevisit> AgreeingVisits(const Map& map) const;
+  PoseGraphEdge EdgeOf(const Map& map, const KeyframeRevisit& visit) const;
   // Whether the drift of the path can be as large as the correction by a visit.
-  bool IsPossible(const Map& map, const Visit& visit) const;
+  bool IsPossible(const Map& map, const KeyframeRevisit& visit) const;
   // The keyframes of the map, linked by odometry, by shared landmarks, and by the loops so far.
   PoseGraph MakeGraph(const Map& map) const;
 
-  std::vector<Visit> visits_;
+  std::vector<KeyframeRevisit> visits_;
   std::vector<PoseGraphEdge> loop_edges_;  // of the closed loops
   int num_closed_ = 0;
   int num_refused_ = 0;

@@ -11,14 +11,6 @@
 
 namespace msc_vo {
 
-void MapJoiner::Add(KeyframeId keyframe, const PoseCovariance& covariance, const Revisit& revisit) {
-  // Older keyframes have drifted more, and wrong ones must not outvote the others for ever.
-  constexpr size_t kMaxCommonKeyframes = 10;
-  if (common_keyframes_.size() == kMaxCommonKeyframes)
-    common_keyframes_.erase(common_keyframes_.begin());
-  common_keyframes_.push_back({keyframe, covariance, revisit});
-}
-
 void MapJoiner::AppendPoses(const Map& map, const Rigid3& map_from_world,
                             std::vector<PoseInMap>* poses) const {
   for (const auto& [id, keyframe] : map.keyframes()) {
@@ -60,21 +52,21 @@ bool MapJoiner::IsPossibleMotion(const Map& a, const Map& b, const Rigid3& a_fro
                      [&](const CameraVelocity& velocity) { return limits.Allow(velocity); });
 }
 
-void MapJoiner::Forget(const std::vector<CommonKeyframe>& keyframes,
+void MapJoiner::Forget(const std::vector<KeyframeRevisit>& keyframes,
                        const std::vector<bool>& forgotten) {
   for (size_t i = 0; i < keyframes.size(); ++i) {
     if (!forgotten[i]) continue;
     const KeyframeId id = keyframes[i].keyframe;
     common_keyframes_.erase(
         std::remove_if(common_keyframes_.begin(), common_keyframes_.end(),
-                       [id](const CommonKeyframe& common) { return common.keyframe == id; }),
+                       [id](const KeyframeRevisit& common) { return common.keyframe == id; }),
         common_keyframes_.end());
   }
 }
 
-std::vector<MapJoiner::CommonKeyframe> MapJoiner::CommonKeyframesWith(const Map& map) const {
-  std::vector<CommonKeyframe> common_keyframes;
-  for (const CommonKeyframe& common : common_keyframes_) {
+std::vector<KeyframeRevisit> MapJoiner::CommonKeyframesWith(const Map& map) const {
+  std::vector<KeyframeRevisit> common_keyframes;
+  for (const KeyframeRevisit& common : common_keyframes_) {
     if (map.KnowsKeyframe(common.revisit.reference)) common_keyframes.push_back(common);
   }
   return common_keyframes;
@@ -87,13 +79,10 @@ std::optional<MapJoin> MapJoiner::TryJoin(Atlas* atlas) {
   if (inactive == nullptr || inactive == &atlas->current()) return std::nullopt;
   const SubMap& current = atlas->current();
   const bool inactive_is_kept = IsOlder(*inactive, current);
-  const std::vector<CommonKeyframe> in_both = CommonKeyframesWith(inactive->map);
+  const std::vector<KeyframeRevisit> in_both = CommonKeyframesWith(inactive->map);
   std::vector<FrameInTwoMaps> frames;  // a: the map that is moved, b: the one that is kept
-  for (const CommonKeyframe& common : in_both) {
-    const Revisit& other = common.revisit;
-    FrameInTwoMaps frame{current.map.CamFromWorld(common.keyframe),
-                         other.cam_from_reference * inactive->map.CamFromWorld(other.reference),
-                         common.covariance, other.covariance};
+  for (const KeyframeRevisit& common : in_both) {
+    FrameInTwoMaps frame = InTwoMaps(common, current.map, inactive->map);
     if (!inactive_is_kept) {
       std::swap(frame.cam_from_a, frame.cam_from_b);
       std::swap(frame.covariance_a, frame.covariance_b);
@@ -121,7 +110,7 @@ std::optional<MapJoin> MapJoiner::TryJoin(Atlas* atlas) {
     MergeMatches(keyframe, in_both[i].revisit.matches, map);
   }
   common_keyframes_.erase(std::remove_if(common_keyframes_.begin(), common_keyframes_.end(),
-                                         [map](const CommonKeyframe& common) {
+                                         [map](const KeyframeRevisit& common) {
                                            return map->KnowsKeyframe(common.revisit.reference);
                                          }),
                           common_keyframes_.end());

@@ -11,7 +11,7 @@
 #include "msc_vo/map/last_tracked_pose.h"
 #include "msc_vo/map/map_alignment.h"
 #include "msc_vo/mapping/atlas.h"
-#include "msc_vo/matching/revisit.h"
+#include "msc_vo/mapping/keyframe_revisit.h"
 
 namespace msc_vo {
 
@@ -33,9 +33,8 @@ struct MapJoin {
 /// Joins the current map with an inactive one when enough keyframes have been found in both.
 class MapJoiner {
  public:
-  /// Adds a keyframe of the current map that was found in an inactive one. `covariance`: of its
-  /// pose in the current map.
-  void Add(KeyframeId keyframe, const PoseCovariance& covariance, const Revisit& revisit);
+  /// Adds a keyframe of the current map that was found in an inactive one.
+  void Add(const KeyframeRevisit& found) { AddRecent(found, &common_keyframes_); }
 
   /// Aligns the current map with the inactive one that keyframes were found in last, joins the two
   /// if the keyframes agree (AlignMaps) and the camera can have moved from one map into the other
@@ -61,18 +60,6 @@ class MapJoiner {
   }
 
  private:
-  // A keyframe of the current map in an inactive one.
-  struct CommonKeyframe {
-    KeyframeId keyframe = kNoId;
-    PoseCovariance covariance = PoseCovariance::Zero();
-    Revisit revisit;
-
-    template <typename Archive>
-    void Serialize(Archive& archive) {
-      archive.Fields(*this, keyframe, covariance, revisit);
-    }
-  };
-
   // The pose of a keyframe, or the last one in its map.
   struct PoseInMap {
     double timestamp = 0.0;  // seconds
@@ -88,11 +75,11 @@ class MapJoiner {
   // is known of the time between sessions.
   bool IsPossibleMotion(const Map& a, const Map& b, const Rigid3& a_from_b) const;
   // Forgets those of `keyframes` that are marked.
-  void Forget(const std::vector<CommonKeyframe>& keyframes, const std::vector<bool>& forgotten);
+  void Forget(const std::vector<KeyframeRevisit>& keyframes, const std::vector<bool>& forgotten);
   // Those that were found in `map`.
-  std::vector<CommonKeyframe> CommonKeyframesWith(const Map& map) const;
+  std::vector<KeyframeRevisit> CommonKeyframesWith(const Map& map) const;
 
-  std::vector<CommonKeyframe> common_keyframes_;
+  std::vector<KeyframeRevisit> common_keyframes_;  // of the current map and an inactive one
   std::vector<LastTrackedPose> last_poses_;
   int num_refused_ = 0;
 };

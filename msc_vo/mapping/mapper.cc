@@ -134,7 +134,7 @@ void Mapper::CloseLoop(KeyframeTask* task) {
   if (summary.join) return loops_.Clear();  // the world of the visits may be another
   if (!packet.revisit || map->FindKeyframe(packet.revisit->reference) == nullptr) return;
   Timed(&summary.times.loop, [&] {
-    loops_.AddRevisit(summary.keyframe, packet.covariance, *packet.revisit);
+    loops_.AddRevisit({summary.keyframe, packet.covariance, *packet.revisit});
     summary.loop = loops_.TryClose(map);
     if (summary.loop) care_.Fuse(summary.keyframe, map);
   });

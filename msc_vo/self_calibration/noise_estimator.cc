@@ -189,6 +189,12 @@ NoiseScale NoiseEstimator::scale() const {
   return {Scale(point_depth_), Scale(line_pixel_), Scale(line_depth_)};
 }
 
+void NoiseEstimator::Restore(const NoiseScale& scale) {
+  point_depth_.value = scale.point_depth * scale.point_depth;
+  line_pixel_.value = scale.line_pixel * scale.line_pixel;
+  line_depth_.value = scale.line_depth * scale.line_depth;
+}
+
 void NoiseEstimator::Apply(WindowData* window) const {
   const NoiseScale scales = scale();
   for (WindowData::PointObservation& o : window->point_observations) {

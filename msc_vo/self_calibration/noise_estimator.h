@@ -43,6 +43,8 @@ class NoiseEstimator {
   explicit NoiseEstimator(const NoiseEstimatorOptions& options);
 
   NoiseScale scale() const;
+  /// Begins with scales of an earlier run, with the weight of a prior.
+  void Restore(const NoiseScale& scale);
 
   /// Multiplies the sigmas of the window's observations by the scales.
   void Apply(WindowData* window) const;

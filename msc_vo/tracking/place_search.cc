@@ -21,10 +21,7 @@ namespace {
 
 // In 1/30 s, and at least one per frame: bounds the cost.
 constexpr int kKeyframesToTry = 1;
-// Score of a place, relative to the reference keyframe of the frame, from which on a part of the
-// same map is tried. Chosen by measurement, see docs/lab/loops.md.
-constexpr double kMinRelativeScore = 0.3;
-// Parts of the same map for which the covariance of the path is computed: bounds the cost.
+// Keyframes of the same map for which the covariance of the path is computed: bounds the cost.
 constexpr int kMaxCandidates = 20;
 
 size_t NumKeyframes(const InactiveMaps& maps) {
@@ -179,7 +176,7 @@ bool PlaceSearch::IsAmbiguous(const TrackedFrame& tracked, const NoiseScale& noi
     const std::optional<Revisit> rival = Relocalize(tracked, noise_scale, map, *keyframe);
     if (!rival) continue;
     if (Sum(SizesOf(rival->matches)) < kMinRivalMatches * Sum(SizesOf(found.matches))) continue;
-    // The same place, but for the drift between two visits?
+    // Poses that differ by no more than the drift between two visits are one place.
     const Rigid3 rival_from_world = rival->cam_from_reference * map.CamFromWorld(rival->reference);
     const bool is_same = IsPossibleDrift(
         map, rival->reference, found.reference,
@@ -194,19 +191,15 @@ bool PlaceSearch::IsAmbiguous(const TrackedFrame& tracked, const NoiseScale& noi
 std::optional<Revisit> PlaceSearch::FindLoop(const TrackedFrame& tracked,
                                              const MapSnapshot& snapshot) const {
   const Map& map = snapshot.map;
-  const std::vector<Place> places = Rank(*tracked.frame);
-  const auto reference = std::find_if(places.begin(), places.end(), [&](const Place& place) {
-    return place.keyframe == tracked.reference;
-  });
-  if (reference == places.end()) return std::nullopt;
+  if (map.FindKeyframe(tracked.reference) == nullptr) return std::nullopt;
   const std::set<KeyframeId> neighbours = NeighboursOf(tracked.matches, tracked.reference, map);
+  if (neighbours.size() == map.keyframes().size()) return std::nullopt;
   const double reach = MedianDepth(*tracked.frame);
   // Not smaller than that of any path in the map: most keyframes fail with it already.
   const PoseCovariance widest = CovarianceSince(tracked, map, map.keyframes().front().first) +
                                 CovarianceSince(tracked, map, map.keyframes().back().first);
   int num_candidates = 0;
-  for (const Place& place : places) {
-    if (place.score < kMinRelativeScore * reference->score) break;
+  for (const Place& place : Rank(*tracked.frame)) {
     const Keyframe* keyframe = map.FindKeyframe(place.keyframe);
     if (keyframe == nullptr || neighbours.count(place.keyframe) > 0) continue;
     const auto can_show = [&](const PoseCovariance& covariance) {

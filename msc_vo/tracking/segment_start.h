@@ -17,13 +17,14 @@ class SegmentStartPolicy {
   /// Reports a frame that was tracked in the map of the segment.
   void Tracked(double timestamp);
   /// Reports a frame that was not found in the map. If it had enough features to be found
-  /// (`is_searched`), the time since the frame before counts as a search, and `num_keyframes` more
-  /// keyframes have been tried.
+  /// (`is_searched`), the time since the frame before counts as a search, in which `num_keyframes`
+  /// keyframes have been tried, some of them not for the first time.
   void NotFound(double timestamp, bool is_searched, int num_keyframes);
 
   /// Whether the map, which has `num_keyframes`, is given up. A map that is not confirmed is given
   /// up at once: nothing is lost with it. Otherwise the search must last for
-  /// SegmentOptions::min_search, and until each keyframe has been tried or max_search is reached.
+  /// SegmentOptions::min_search, and for as many tries as the map has keyframes or until max_search
+  /// is reached.
   bool IsDue(int num_keyframes) const;
 
   /// Time stamp of the last reported frame, seconds.

@@ -18,8 +18,8 @@ struct SegmentOptions {
   /// Begin new segments. Otherwise a run without its map stays lost until it finds it.
   bool enabled = true;
   /// Time for which the map is searched in images with enough features, seconds: longer than blur
-  /// or a hand in front of the lens usually last. The search goes on until each keyframe has been
-  /// tried once, but not longer than the maximum.
+  /// or a hand in front of the lens usually last. The search goes on for as many
+  /// tries as the map has keyframes, but not longer than the maximum.
   double min_search = 1.0;
   double max_search = 5.0;
   /// Shortest time between two frames that are found in an inactive map, seconds: a hand-held

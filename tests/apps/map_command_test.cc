@@ -228,6 +228,21 @@ TEST_F(MapCommandTest, DoesNotResumeIntoAMapOfAnotherRun) {
   EXPECT_TRUE(ReadFile(Path("home.map")) == bytes);
 }
 
+TEST_F(MapCommandTest, DoesNotResumeALocalizationInAMapThatHasGrown) {
+  MakeMap();
+  {
+    CommandProcess replay(
+        Arguments("room", "out", {"--localize", Path("home.map"), "--checkpoint-interval", "0"}));
+    for (int i = 0; i < 60000 && !HasEntry(Path("out/checkpoint/state.bin")); ++i) usleep(1000);
+    replay.Signal(SIGKILL);
+    ASSERT_EQ(replay.Wait(), -SIGKILL) << replay.output();
+  }
+  MakeMap();  // a second session
+  const CommandOutcome resumed = RunCommand({"replay", "--resume", Path("out"), "--quiet"});
+  EXPECT_EQ(resumed.exit_code, 1);
+  EXPECT_THAT(resumed.output, Names("error:", Path("home.map"), "another run", "--resume"));
+}
+
 TEST_F(MapCommandTest, FindsItselfWithAnotherCamera) {
   MakeMap();
   RenderSequence(Path("large"), {"--scene", "room", "--frames", "60", "--width", "400"});

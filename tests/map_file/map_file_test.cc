@@ -190,7 +190,7 @@ TEST_F(MapFileTest, JoinsSubMaps) {
   ExpectSameMap(loaded.submaps[0].map, first);
 }
 
-// The ids of what was removed are not used again.
+// Ids of removed keyframes and landmarks are not reused.
 TEST_F(MapFileTest, ContinuesLoadedMap) {
   Map map = random_.Make(3);
   SaveMap(Path("home.map"), AsContents(map.Share()));

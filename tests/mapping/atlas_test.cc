@@ -133,11 +133,14 @@ TEST_F(AtlasTest, BeginsWithTheMapsOfEarlierSessions) {
   AxesEstimate axes;
   axes.sigma = 1e-3;
   saved[1].axes = axes;
+  saved[1].noise_scale = {0.5, 1.5, 1.0};
   next.BeginWith(std::move(saved));
   EXPECT_EQ(next.current().id, 2);
   ASSERT_EQ(next.inactive_maps().size(), 2u);
   EXPECT_FALSE(next.Find(0)->axes.Estimate());
   EXPECT_TRUE(next.Find(1)->axes.Estimate());
+  EXPECT_DOUBLE_EQ(next.Find(1)->noise.scale().line_pixel, 1.5);
+  EXPECT_DOUBLE_EQ(next.Find(1)->noise.scale().point_depth, 0.5);
   const Ids ids = Fill(&next.current().map);
   EXPECT_GT(ids.first, new_.second);
   EXPECT_GT(ids.point, new_.line);

@@ -50,7 +50,7 @@ class LoopCloserTest : public testing::Test {
     const Rigid3 shift(Eigen::Quaterniond::Identity(), {offset, 0.0, 0.0});  // of the world
     revisit.cam_from_reference = Truth(i) * shift * Truth(reference).Inverse();
     revisit.covariance = kCovariance;
-    closer_.AddRevisit(i, kCovariance, revisit);
+    closer_.AddRevisit({i, kCovariance, revisit});
   }
 
   static inline const PoseCovariance kCovariance = 1e-6 * PoseCovariance::Identity();
@@ -68,7 +68,7 @@ TEST_F(LoopCloserTest, CorrectsThePathIfThreeKeyframesAgree) {
   const double before = Error(38), middle_before = Error(20);
   msc_vo::Revisit last{2, Truth(38) * Truth(2).Inverse(), kCovariance, {}};
   last.matches.points.push_back({0, old});
-  closer_.AddRevisit(38, kCovariance, last);
+  closer_.AddRevisit({38, kCovariance, last});
   const std::optional<LoopClosure> loop = closer_.TryClose(&map_);
   ASSERT_TRUE(loop);
   EXPECT_EQ(loop->keyframe, 38);

@@ -46,7 +46,7 @@ class MapJoinerTest : public testing::Test {
       const double x = 0.5 * time;
       const KeyframeId keyframe = AddKeyframe(time, x, &atlas_.current().map);
       const KeyframeId reference = 0;  // at x = 0
-      joiner_.Add(keyframe, covariance, {reference, CameraAt(x + offset), covariance, {}});
+      joiner_.Add({keyframe, covariance, {reference, CameraAt(x + offset), covariance, {}}});
     }
     return joiner_.TryJoin(&atlas_);
   }

@@ -10,26 +10,10 @@
 
 #include "msc_vo/checkpoint/binary_reader.h"
 #include "msc_vo/checkpoint/binary_writer.h"
-#include "msc_vo/geometry/angles.h"
 #include "msc_vo/odometry/odometry.h"
 
 namespace msc_vo {
 namespace {
-
-SyntheticSequenceOptions WalkOptionsOfDesks() {
-  SyntheticSequenceOptions options;
-  options.scene = SceneKind::kDesks;
-  options.seed = 4;
-  options.walk = {1, true};
-  options.width = 320;
-  options.height = 240;
-  options.fps = 10.0;
-  options.kinect_depth = true;
-  options.quick = true;
-  options.path.speed = 0.55;                        // metres/second
-  options.path.turn_rate = DegreesToRadians(55.0);  // radians/second
-  return options;
-}
 
 struct Walk {
   std::vector<FrameResult> live;
@@ -39,8 +23,9 @@ struct Walk {
 class LoopsTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    sequence_ = std::make_unique<SyntheticSequence>(WalkOptionsOfDesks());
-    images_ = RenderImages(WalkOptionsOfDesks(), *sequence_->WalkLength());
+    const SyntheticSequenceOptions options = QuickWalk(SceneKind::kDesks, 4, {1, true});
+    sequence_ = std::make_unique<SyntheticSequence>(options);
+    images_ = RenderImages(options, *sequence_->WalkLength());
   }
   static void TearDownTestSuite() {
     sequence_.reset();

@@ -68,6 +68,21 @@ PathOptions SeededPath(const SyntheticSequenceOptions& options) {
 
 }  // namespace
 
+SyntheticSequenceOptions QuickWalk(SceneKind scene, uint64_t seed, const WalkOptions& walk) {
+  SyntheticSequenceOptions options;
+  options.scene = scene;
+  options.seed = seed;
+  options.walk = walk;
+  options.width = 320;
+  options.height = 240;
+  options.fps = 10.0;
+  options.kinect_depth = true;
+  options.quick = true;
+  options.path.speed = 0.55;
+  options.path.turn_rate = DegreesToRadians(55.0);
+  return options;
+}
+
 bool SyntheticSequenceOptions::IsValid(std::string* error) const {
   if (width < 32 || height < 32 || width > 8192 || height > 8192) {
     *error = "width and height must be from 32 to 8192 pixels";
