@@ -5,6 +5,8 @@ set(MSC_VO_PUBLIC_HEADERS
   msc_vo/odometry/odometry.h
   msc_vo/checkpoint/checkpoint_file.h
   msc_vo/odometry/localization.h
+  msc_vo/odometry/localizer.h
+  msc_vo/odometry/map_merge.h
   msc_vo/map_file/map_reader.h
   msc_vo/map_file/map_writer.h
   msc_vo/logging/logger.h

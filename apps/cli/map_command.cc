@@ -3,10 +3,15 @@
 
 #include <iostream>
 #include <memory>
+#include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "apps/cli/commands.h"
 #include "msc_vo/map_file/map_reader.h"
+#include "msc_vo/map_file/map_writer.h"
+#include "msc_vo/odometry/map_merge.h"
 #include "msc_vo/results/map_export.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
@@ -17,7 +22,7 @@ namespace {
 
 struct MapCommandArguments {
   std::string action;
-  std::string file;
+  std::vector<std::string> files;
   std::string output;
 };
 
@@ -41,26 +46,71 @@ void PrintInfo(const std::string& file) {
   std::cout << summary.num_loop_edges << " loop edges" << std::endl;
 }
 
-int Run(const MapCommandArguments& arguments) {
-  if (arguments.action == "info") {
-    PrintInfo(arguments.file);
-  } else if (arguments.action == "check") {
-    CheckMap(arguments.file);
-    std::cout << arguments.file << ": no damage" << std::endl;
-  } else {
-    const MapContents contents = LoadMap(arguments.file);
-    RefuseToOverwrite({arguments.file}, arguments.output);
-    ExportMap(contents, arguments.output);
-    std::cout << "written to " << arguments.output << std::endl;
+void Export(const std::string& file, const std::string& folder) {
+  const MapContents contents = LoadMap(file);
+  RefuseToOverwrite({file}, folder);
+  ExportMap(contents, folder);
+}
+
+void PrintMerge(const std::string& file, const MapMerge& merge) {
+  for (const MapJoin& join : merge.joins) {
+    std::cout << FormatText("%s: submap %d is joined with submap %d, by %d keyframes\n",
+                            file.c_str(), join.moved, join.kept, join.num_keyframes);
   }
+  if (merge.num_loops > 0) {
+    std::cout << FormatText("%s: %d loops closed\n", file.c_str(), merge.num_loops);
+  }
+  if (merge.joins.empty()) {
+    std::cout << file << ": shows no place of the maps before it; its submaps are added apart"
+              << std::endl;
+  }
+}
+
+void Merge(const std::vector<std::string>& files, const std::string& output) {
+  if (HasEntry(output)) {
+    throw std::runtime_error(output + ": exists; give the merged map another name");
+  }
+  MapContents contents = LoadMap(files.front());
+  for (size_t i = 1; i < files.size(); ++i) {
+    MapMerge merge = MergeMaps({}, std::move(contents), LoadMap(files[i]));
+    PrintMerge(files[i], merge);
+    contents = std::move(merge.contents);
+  }
+  SaveMap(output, std::move(contents));
+}
+
+int Run(const MapCommandArguments& arguments) {
+  const std::string& file = arguments.files.front();
+  if (arguments.action == "info") {
+    PrintInfo(file);
+    return kExitSuccess;
+  }
+  if (arguments.action == "check") {
+    CheckMap(file);
+    std::cout << file << ": no damage" << std::endl;
+    return kExitSuccess;
+  }
+  if (arguments.action == "merge") {
+    Merge(arguments.files, arguments.output);
+  } else {
+    Export(file, arguments.output);
+  }
+  std::cout << "written to " << arguments.output << std::endl;
   return kExitSuccess;
 }
 
 void Check(const MapCommandArguments& arguments) {
-  const bool exports = arguments.action == "export";
-  if (exports && arguments.output.empty()) throw CLI::RequiredError("--output");
-  if (!exports && !arguments.output.empty()) {
-    throw CLI::ValidationError("--output", "only map export writes files; leave it out");
+  const bool merges = arguments.action == "merge";
+  const bool writes = merges || arguments.action == "export";
+  if (writes && arguments.output.empty()) throw CLI::RequiredError("--output");
+  if (!writes && !arguments.output.empty()) {
+    throw CLI::ValidationError("--output", "only map export and map merge write; leave it out");
+  }
+  if (merges && arguments.files.size() < 2) {
+    throw CLI::ValidationError("files", "map merge needs two map files or more");
+  }
+  if (!merges && arguments.files.size() > 1) {
+    throw CLI::ValidationError("files", "map " + arguments.action + " takes one map file");
   }
 }
 
@@ -69,16 +119,17 @@ void Check(const MapCommandArguments& arguments) {
 Command AddMapCommand(CLI::App* app) {
   const auto arguments = std::make_shared<MapCommandArguments>();
   CLI::App* command =
-      app->add_subcommand("map", "Describe, check or export a map file of replay --map");
+      app->add_subcommand("map", "Describe, check, export or merge map files of replay --map");
   command
       ->add_option("action", arguments->action,
                    "info: what the file contains; check: read all of it; export: write points and "
-                   "lines (PLY), keyframes (TUM) and the pose graph (g2o)")
+                   "lines (PLY), keyframes (TUM) and the pose graph (g2o); merge: join the maps of "
+                   "several files by the places that they share")
       ->required()
-      ->check(CLI::IsMember({"info", "check", "export"}));
-  command->add_option("file", arguments->file, "Map file (docs/map_file.md)")->required();
-  command->add_option("--output", arguments->output, "Folder for the files of export")
-      ->type_name("FOLDER");
+      ->check(CLI::IsMember({"info", "check", "export", "merge"}));
+  command->add_option("files", arguments->files, "Map files (docs/map_file.md)")->required();
+  command->add_option("--output", arguments->output, "Folder of export, new map file of merge")
+      ->type_name("PATH");
   command->callback([arguments] { Check(*arguments); });
   command->footer(HelpFooter("msc_vo map export home.map --output out/home"));
   return {command, [arguments] { return Run(*arguments); }};

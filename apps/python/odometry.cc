@@ -15,6 +15,7 @@
 #include "apps/python/arrays.h"
 #include "apps/python/bindings.h"
 #include "apps/python/checkpoint.h"
+#include "apps/python/contexts.h"
 #include "apps/python/factors.h"
 #include "apps/python/fork_guard.h"
 #include "apps/python/lens_argument.h"
@@ -24,6 +25,7 @@
 #include "apps/python/tracked_image.h"
 #include "msc_vo/map_file/map_reader.h"
 #include "msc_vo/map_file/map_writer.h"
+#include "msc_vo/odometry/localization.h"
 #include "msc_vo/sensor/byte_order.h"
 
 namespace msc_vo {
@@ -41,23 +43,6 @@ void CheckByteOrder(const cv::Mat& depth, const py::object& depth_scale) {
       "depth: the two bytes of the values are swapped; give depth.byteswap(), or read the images "
       "with the high byte first");
 }
-
-// What a callback of window factors gets: the context, and the window while the callback runs.
-struct PyWindowContext {
-  explicit PyWindowContext(const WindowContext& context_in) : context(context_in) {}
-
-  // A copy, made when it is first asked for.
-  std::shared_ptr<WindowData> Data() {
-    if (!data && context.data == nullptr) {
-      throw std::runtime_error("data: the window is known during the callback only");
-    }
-    if (!data) data = std::make_shared<WindowData>(*context.data);
-    return data;
-  }
-
-  WindowContext context;
-  std::shared_ptr<WindowData> data;
-};
 
 // The odometry without the GIL, and the numbering of its images.
 class PyOdometry {
@@ -99,8 +84,13 @@ class PyOdometry {
     });
   }
 
-  void ReadMap(const py::object& file) {
-    Alone([&, path = PathArgument(file)] { odometry_->SetMap(LoadMap(path)); });
+  void ReadMap(const py::object& file, bool only_localize) {
+    Alone([&, path = PathArgument(file)] {
+      MapContents map = LoadMap(path);
+      const int num_worlds = static_cast<int>(map.submaps.size());
+      odometry_->SetMap(std::move(map));
+      if (only_localize) num_worlds_ = num_worlds;
+    });
   }
 
   void WriteMap(const py::object& file, const std::string& session) {
@@ -125,7 +115,10 @@ class PyOdometry {
     image.gray = GrayArgument(gray, "gray");
     image.depth = DepthArgument(depth, depth_scale, "depth");
     if (!depth_scale.is_none() && image.id < kNumChecked) CheckByteOrder(image.depth, depth_scale);
-    return Alone([&] { return odometry_->Process(image); });
+    return Alone([&] {
+      const FrameResult frame = odometry_->Process(image);
+      return num_worlds_ ? KeepLocalizedPose(*num_worlds_, frame) : frame;
+    });
   }
 
   FrameResult Drop(const py::object& timestamp, const std::string& status) {
@@ -150,7 +143,11 @@ class PyOdometry {
   }
 
   std::shared_ptr<OdometryResult> Finish() {
-    return Alone([&] { return std::make_shared<OdometryResult>(odometry_->Finish()); });
+    return Alone([&] {
+      const auto result = std::make_shared<OdometryResult>(odometry_->Finish());
+      if (num_worlds_) KeepLocalizedPoses(result.get());
+      return result;
+    });
   }
 
   std::vector<FrameResult> Frames() {
@@ -259,75 +256,19 @@ class PyOdometry {
   std::unique_ptr<Odometry> odometry_;
   RunCheckpoint checkpoint_;
   ForkGuard process_;
+  std::optional<int> num_worlds_;  // of a map that the run is only localised in
   bool has_threads_;
   bool is_usable_ = true;  // a checkpoint has not been read in part
   std::atomic<bool> busy_ = false;
 };
 
-py::dict BlockValues(const std::vector<ExtraBlock>& blocks) {
-  py::dict values;
-  for (const ExtraBlock& block : blocks) values[py::int_(block.id)] = block.value;
-  return values;
-}
-
-void BindContexts(py::module_* module) {
-  py::class_<WindowContext::Keyframe>(*module, "WindowKeyframe", "A keyframe of a WindowContext.")
-      .def_readonly("id", &WindowContext::Keyframe::id, "Id for BlockId.pose().")
-      .def_readonly("timestamp", &WindowContext::Keyframe::timestamp, "Seconds.")
-      .def_readonly("fixed", &WindowContext::Keyframe::fixed,
-                    "Whether the pose is held constant in this window.")
-      .def_property_readonly(
-          "cam_from_world",
-          [](const WindowContext::Keyframe& self) { return PoseMatrix(self.cam_from_world); },
-          "4x4.");
-  py::class_<PyWindowContext, std::shared_ptr<PyWindowContext>>(
-      *module, "WindowContext", "A window before its local bundle adjustment.")
-      .def_property_readonly(
-          "keyframes", [](const PyWindowContext& self) { return self.context.keyframes; },
-          "In order of time.")
-      .def_property_readonly(
-          "world", [](const PyWindowContext& self) { return self.context.world; },
-          "Number of the world of the poses.")
-      .def_property_readonly(
-          "world_from_axes",
-          [](const PyWindowContext& self) -> std::optional<Eigen::Matrix3d> {
-            if (!self.context.world_from_axes) return std::nullopt;
-            return self.context.world_from_axes->toRotationMatrix();
-          },
-          "3x3 rotation, the block BlockId.axes(); None while no Manhattan axes are found.")
-      .def_property_readonly(
-          "extra_blocks",
-          [](const PyWindowContext& self) { return BlockValues(self.context.extra_blocks); },
-          "Present values of the extra blocks by id.")
-      .def_property_readonly(
-          "data", &PyWindowContext::Data,
-          "WindowData with the points and lines of the window and their observations, a copy. "
-          "Factors may use the ids of any of them. Raises RuntimeError after the callback, unless "
-          "it was asked for before.");
-  py::class_<FrameContext>(*module, "FrameContext", "A frame before its pose is estimated.")
-      .def_readonly("timestamp", &FrameContext::timestamp, "Seconds.")
-      .def_readonly("last_timestamp", &FrameContext::last_timestamp,
-                    "Of the last frame whose pose was estimated from its image.")
-      .def_property_readonly(
-          "last_cam_from_world",
-          [](const FrameContext& self) { return PoseMatrix(self.last_cam_from_world); },
-          "4x4, the pose at last_timestamp.")
-      .def_property_readonly(
-          "predicted_cam_from_world",
-          [](const FrameContext& self) { return PoseMatrix(self.predicted_cam_from_world); },
-          "4x4, by constant velocity.")
-      .def_readonly("world", &FrameContext::world, "Number of the world of the poses.")
-      .def_property_readonly(
-          "extra_blocks", [](const FrameContext& self) { return BlockValues(self.extra_blocks); },
-          "Values of the extra blocks by id, as estimated in the map that the frame is tracked "
-          "in.");
-}
-
 // Maps and checkpoints in files.
 void BindStorage(py::class_<PyOdometry>* odometry) {
   (*odometry)
-      .def("load_map", &PyOdometry::ReadMap, py::arg("file"),
-           "Begins with the map of earlier sessions. ValueError after the first image.")
+      .def("load_map", &PyOdometry::ReadMap, py::arg("file"), py::kw_only(),
+           py::arg("only_localize") = false,
+           "Begins with the map of earlier sessions. only_localize: frames that are not in its "
+           "world are lost (Localizer). ValueError after the first image.")
       .def("save_map", &PyOdometry::WriteMap, py::arg("file"), py::arg("session") = "",
            "Waits for local mapping and replaces a file by the map of this and earlier sessions.")
       .def(
@@ -338,8 +279,7 @@ void BindStorage(py::class_<PyOdometry>* odometry) {
       .def("restore", &PyOdometry::Restore, py::arg("folder"),
            "Continues the run of a checkpoint, before the first image, with the same options (but "
            "threads and external_mapping), camera and lens: ValueError on others, RuntimeError on "
-           "files that are missing "
-           "or damaged. After an error, only another Odometry can be used.");
+           "files that are missing or damaged. After an error, only another Odometry can be used.");
 }
 
 }  // namespace
@@ -354,16 +294,14 @@ void BindOdometry(py::module_* module) {
       .def(py::init<const OptionsTable*, const PinholeCamera&, const py::object&>(),
            py::arg("options"), py::arg("camera"), py::arg("distortion") = py::none(),
            "options: None for the defaults. distortion: k1 k2 p1 p2 [k3] in OpenCV's order, or a "
-           "Lens. Raises "
-           "ValueError on options or a camera that are not valid.")
+           "Lens. Raises ValueError on options or a camera that are not valid.")
       .def("process", &PyOdometry::Process, py::arg("timestamp"), py::arg("gray"), py::arg("depth"),
            py::kw_only(), py::arg("depth_scale") = py::none(), py::arg("depth_delay") = 0.0,
            "Tracks one image. timestamp: seconds, ascending. gray: uint8 (height, width), or RGB "
            "(height, width, 3). depth: float32 in metres, or uint16 with depth_scale units per "
            "metre, 10 to 100000; 0 or masked: not measured. Arrays must be C-contiguous; those in "
-           "the "
-           "byte order of the machine are not copied. "
-           "depth_delay: seconds from the colour image to the depth image. Raises ValueError on "
+           "the byte order of the machine are not copied. depth_delay: seconds from the colour "
+           "image to the depth image. Raises ValueError on "
            "arrays that do not fit, which leave no frame. Exceptions of callbacks and of local "
            "mapping come after the frame is complete: it is in `frames`.")
       .def("drop", &PyOdometry::Drop, py::arg("timestamp"), py::arg("status") = "dropped",
@@ -380,8 +318,7 @@ void BindOdometry(py::module_* module) {
       .def("set_window_factors", &PyOdometry::SetWindowFactors, py::arg("callback"),
            "callback(WindowContext) returns CustomFactor and ExtraBlock objects for every window "
            "of local bundle adjustment. Runs on the mapper's thread if there is one. ValueError "
-           "after "
-           "the first image.")
+           "after the first image.")
       .def(
           "set_pose_factors", &PyOdometry::SetPoseFactors, py::arg("callback"),
           "callback(FrameContext) returns PoseFactor objects for every frame. ValueError after the "

@@ -117,6 +117,45 @@ TEST_F(MapCommandTest, ExtendsTheMapBySessionsThatFindThemselvesInIt) {
   EXPECT_LT(summary.submaps[0].num_points, 2 * num_first);
 }
 
+// Two runs of the same path that know nothing of each other, and one elsewhere.
+TEST_F(MapCommandTest, MergesMapsByTheirPlaces) {
+  MakeMap();
+  ASSERT_EQ(Replay("room", "second", {"--map", Path("second.map")}).exit_code, 0);
+  RenderSequence(Path("corridor"), {"--scene", "corridor", "--frames", "30", "--width", "320"});
+  ASSERT_EQ(Replay("corridor", "elsewhere", {"--map", Path("corridor.map")}).exit_code, 0);
+  const std::string first = ReadFile(Path("home.map"));
+  const CommandOutcome outcome = RunCommand({"map", "merge", Path("home.map"), Path("second.map"),
+                                             Path("corridor.map"), "--output", Path("all.map")});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, AllOf(LineNames("second.map", "is joined", "submap 0", "keyframes"),
+                                    LineNames("corridor.map", "shows no place")));
+  EXPECT_TRUE(ReadFile(Path("home.map")) == first);
+  ExpectMap("all.map", 3);
+  const MapFileSummary one = SummarizeMap(Path("home.map")), all = SummarizeMap(Path("all.map"));
+  ASSERT_EQ(all.submaps.size(), 2u);
+  // The map grows with what it shows, not with the visits.
+  EXPECT_LT(all.submaps[0].num_points, 1.6 * one.submaps[0].num_points);
+  ASSERT_EQ(Replay("room", "third", {"--localize", Path("all.map")}).exit_code, 0);
+  EXPECT_LT(LargestDistance("first", "third"), 0.02);
+}
+
+TEST_F(MapCommandTest, RefusesToMergeWhatItCannot) {
+  MakeMap();
+  EXPECT_EQ(RunCommand({"map", "merge", Path("home.map"), "--output", Path("a.map")}).exit_code, 2);
+  EXPECT_EQ(RunCommand({"map", "merge", Path("home.map"), Path("home.map")}).exit_code, 2);
+  EXPECT_EQ(RunCommand({"map", "check", Path("home.map"), Path("home.map")}).exit_code, 2);
+  const CommandOutcome outcome = RunCommand(
+      {"map", "merge", Path("home.map"), Path("home.map"), "--output", Path("home.map")});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.output, Names("error:", Path("home.map"), "exists"));
+  WriteText("text.map", "no map\n");
+  const CommandOutcome damaged =
+      RunCommand({"map", "merge", Path("home.map"), Path("text.map"), "--output", Path("a.map")});
+  EXPECT_EQ(damaged.exit_code, 1);
+  EXPECT_THAT(damaged.output, Names("error:", Path("text.map")));
+  EXPECT_FALSE(HasEntry(Path("a.map")));
+}
+
 TEST_F(MapCommandTest, LocalizesInAMapThatRemains) {
   MakeMap();
   const std::string bytes = ReadFile(Path("home.map"));

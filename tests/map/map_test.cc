@@ -5,6 +5,9 @@
 
 #include <gmock/gmock.h>
 
+#include "msc_vo/map/map_renumbering.h"
+#include "msc_vo/map/map_validation.h"
+
 namespace msc_vo {
 namespace {
 
@@ -51,6 +54,33 @@ TEST_F(MapTest, TakesTheIdOfAKeyframeUnlessItIsNotNew) {
   for (const KeyframeId known : {keyframes_[1], id - 1, id + 1}) {
     EXPECT_THROW(map_.AddKeyframe(MakeFrame(1, 0), Rigid3(), known), std::invalid_argument);
   }
+}
+
+TEST_F(MapTest, IsRenumberedAfterAnother) {
+  MapContents first, second;
+  first.sessions = {{0, "first"}};
+  first.submaps.push_back({0, map_.Share(), {}, {}});
+  second.sessions = {{0, "second"}};
+  map_.SetStepCovariance(keyframes_[1], 3.0 * PoseCovariance::Identity());
+  second.submaps.push_back({0, map_.Share(), {}, {}});
+  second.loops.push_back({keyframes_[0], keyframes_[2], Rigid3(), PoseCovariance::Identity()});
+  RenumberAfter(first, &second);
+  EXPECT_EQ(second.sessions[0].first_keyframe, map_.next_keyframe());
+  EXPECT_EQ(second.submaps[0].id, 1);
+  const Map& map = second.submaps[0].map;
+  EXPECT_EQ(FirstViolation(map), "");
+  ASSERT_EQ(map.keyframes().size(), 3u);
+  const KeyframeId second_keyframe = map_.next_keyframe() + keyframes_[1];
+  EXPECT_EQ(map.CamFromWorld(second_keyframe).params, map_.CamFromWorld(keyframes_[1]).params);
+  EXPECT_EQ((*map.StepCovariance(second_keyframe))(0, 0), 3.0);
+  const PointLandmark* b = map.Find<PointLandmark>(map_.next_landmark() + b_);
+  ASSERT_NE(b, nullptr);
+  EXPECT_EQ(b->first_keyframe, second_keyframe);
+  ASSERT_EQ(b->observations.size(), 1u);
+  EXPECT_EQ(b->observations[0].keyframe, second_keyframe);
+  EXPECT_EQ(map.FindKeyframe(second_keyframe)->landmarks.points[1], b->id);
+  EXPECT_NE(map.Find<LineLandmark>(map_.next_landmark() + line_), nullptr);
+  EXPECT_EQ(second.loops[0].to, map_.next_keyframe() + keyframes_[2]);
 }
 
 TEST_F(MapTest, StoresObservationsInLandmarkAndKeyframe) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -9,6 +10,8 @@
 
 #include "msc_vo/map/map_validation.h"
 #include "msc_vo/odometry/localization.h"
+#include "msc_vo/odometry/localizer.h"
+#include "msc_vo/odometry/map_merge.h"
 
 namespace msc_vo {
 namespace {
@@ -167,6 +170,58 @@ TEST_F(SessionsTest, KeepsNoPoseOfAnUnknownPlace) {
   KeepLocalizedPoses(&result);
   for (const FrameResult& frame : result.frames) EXPECT_FALSE(IsEstimated(frame.status));
   EXPECT_TRUE(result.points.empty());
+}
+
+TEST_F(SessionsTest, LocalizerGivesPosesInTheMapOnly) {
+  Localizer localizer(Options(), camera_, LensDistortion(), Map());
+  int first = kNumFrames;
+  for (int i = 0; i < kNumFrames; ++i) {
+    const FrameResult frame = localizer.Process((*images_)[i]);
+    if (IsEstimated(frame.status)) first = std::min(first, i);
+    EXPECT_EQ(IsEstimated(frame.status), i >= first) << i;
+    EXPECT_EQ(frame.world, i >= first ? 0 : kNoSegment) << i;
+  }
+  EXPECT_GT(first, 0);
+  EXPECT_LT(first, 25);
+  const OdometryResult result = localizer.Finish();
+  EXPECT_EQ(IsEstimated(result.frames[first].status), true);
+  EXPECT_EQ(IsEstimated(result.frames[0].status), false);
+  EXPECT_THROW(Localizer(Options(), camera_, LensDistortion(), {}), std::invalid_argument);
+}
+
+// Both were made by the same images: the second one is where the first one is.
+TEST_F(SessionsTest, MergesMapsOfTheSamePlace) {
+  MapContents second = Map();
+  const Rigid3 moved(Eigen::Quaterniond(Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitY())),
+                     {3.0, -1.0, 2.0});
+  second.submaps[0].map.Transform(moved);
+  const msc_vo::Map& one = first_->submaps[0].map;
+  const MapMerge merge = MergeMaps(Options(), Map(), std::move(second));
+  ASSERT_EQ(merge.joins.size(), 1u);
+  ASSERT_EQ(merge.contents.submaps.size(), 1u);
+  ASSERT_EQ(merge.contents.sessions.size(), 2u);
+  EXPECT_EQ(merge.contents.sessions[1].first_keyframe, one.next_keyframe());
+  const Rigid3 error = merge.joins[0].moved_from_kept * moved.Inverse();
+  EXPECT_LT(error.translation().norm(), 0.005);
+  EXPECT_LT(error.rotation().angularDistance(Eigen::Quaterniond::Identity()), 0.002);
+  const msc_vo::Map& both = merge.contents.submaps[0].map;
+  EXPECT_EQ(FirstViolation(both), "");
+  EXPECT_LT(both.points().size(), 1.3 * one.points().size());
+  for (const auto& [id, keyframe] : one.keyframes()) {
+    if (both.FindKeyframe(id) == nullptr) continue;  // redundant now
+    EXPECT_EQ(both.CamFromWorld(id).params, keyframe.cam_from_world.params);
+  }
+}
+
+TEST_F(SessionsTest, MergesNothingOfAnotherPlace) {
+  SyntheticSequenceOptions other = RoomOptions();
+  other.seed = 7;
+  Odometry odometry(Options(), camera_, LensDistortion());
+  for (const RgbdImage& image : RenderImages(other, 30)) odometry.Process(image);
+  const MapMerge merge = MergeMaps(Options(), Map(), *odometry.ShareMaps("elsewhere"));
+  EXPECT_TRUE(merge.joins.empty());
+  EXPECT_EQ(merge.contents.submaps.size(), 2u);
+  EXPECT_EQ(merge.contents.submaps[1].id, 1);
 }
 
 // The same scene, seen with another focal length and image size.

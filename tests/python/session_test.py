@@ -85,6 +85,13 @@ class Session(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "first image"):
                 second.load_map(path)
             second.save_map(path)
+            third = msc_vo.Localizer(options, sequence.camera, path, distortion=sequence.lens)
+        status = [third.process(image.timestamp, image.gray, image.depth).status
+                  for image in sequence]
+        begin = third.finish().first_localized_frame
+        adopted = status.index("tracked")  # the first frame that sees the joined map
+        self.assertTrue(0 < begin <= adopted < len(sequence) // 2)
+        self.assertEqual(status, ["lost"] * adopted + ["tracked"] * (len(sequence) - adopted))
         result = second.finish()
         self.assertIsNone(first.finish().first_localized_frame)
         found = result.first_localized_frame

@@ -10,8 +10,8 @@ import msc_vo
 import support
 
 # Handles of running code and of the memory of a run, and views that are valid during a call.
-NO_VALUES = {"Sequence", "Odometry", "DepthRegistration", "CostFunction", "CustomFactor", "PoseFactor",
-             "TrackedImage", "Map", "WindowContext", "UnreadableImage"}
+NO_VALUES = {"Sequence", "Odometry", "Localizer", "DepthRegistration", "CostFunction", "CustomFactor",
+             "PoseFactor", "TrackedImage", "Map", "WindowContext", "UnreadableImage"}
 MUTABLE = {"Options", "WindowOptions", "WindowData"}
 
 

@@ -13,6 +13,18 @@ from ._msc_vo import *  # noqa: F401,F403
 from ._msc_vo import __version__  # noqa: F401
 
 
+class Localizer(Odometry):  # noqa: F405
+    """Finds a camera in a saved map, which remains as it is.
+
+    An Odometry whose frames are lost unless they are in the world of the map. map: a file of
+    Odometry.save_map or `msc_vo replay --map`.
+    """
+
+    def __init__(self, options, camera, map, distortion=None):
+        super().__init__(options, camera, distortion)
+        self.load_map(map, only_localize=True)
+
+
 def replay(sequence, options=None, on_frame=None, on_tracked=None):
     """Runs the odometry over a sequence as `msc_vo replay` does and returns its Result.
 
