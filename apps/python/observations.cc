@@ -18,10 +18,10 @@ namespace {
 
 // One number per item.
 template <typename T, typename Items, typename Get>
-py::array Column(const Items& items, const Get& get) {
+py::array_t<T> Column(const Items& items, const Get& get) {
   py::array_t<T> column(static_cast<py::ssize_t>(items.size()));
   for (size_t i = 0; i < items.size(); ++i) column.mutable_at(i) = get(items[i]);
-  return std::move(column);
+  return column;
 }
 
 }  // namespace

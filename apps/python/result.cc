@@ -84,7 +84,7 @@ RowMajorMatrix AllRows(const OdometryResult& result) {
 }
 
 // One per frame; nan where nothing determines the pose.
-py::array CovariancesOf(const OdometryResult& result) {
+py::array_t<double> CovariancesOf(const OdometryResult& result) {
   const auto size = static_cast<py::ssize_t>(result.frames.size());
   py::array_t<double> covariances({size, py::ssize_t{6}, py::ssize_t{6}});
   double* to = covariances.mutable_data();
@@ -97,7 +97,7 @@ py::array CovariancesOf(const OdometryResult& result) {
     }
     to += matrix.size();
   }
-  return std::move(covariances);
+  return covariances;
 }
 
 py::object StatusOf(const OdometryResult& result) {

@@ -51,12 +51,12 @@ py::array DepthOf(const py::object& self) {
                    {static_cast<py::ssize_t>(depth.step[0]), sizeof(float)}, self);
 }
 
-py::array StampsOf(const RgbdDecoder& sequence) {
+py::array_t<double> StampsOf(const RgbdDecoder& sequence) {
   py::array_t<double> stamps(sequence.size());
   for (int i = 0; i < sequence.size(); ++i) {
     stamps.mutable_at(i) = sequence.index().entries[i].timestamp;
   }
-  return std::move(stamps);
+  return stamps;
 }
 
 void BindImage(py::module_* module) {

@@ -71,13 +71,13 @@ RowMajorMatrix LineDepthsOf(const PyTrackedImage& self) {
 
 // The landmark that each feature is matched with.
 template <typename Match>
-py::array LandmarksOf(const std::vector<Match>& matches, size_t num_features) {
+py::array_t<int64_t> LandmarksOf(const std::vector<Match>& matches, size_t num_features) {
   py::array_t<int64_t> landmarks(static_cast<py::ssize_t>(num_features));
   for (size_t i = 0; i < num_features; ++i) landmarks.mutable_at(i) = kNoId;
   for (const Match& match : matches) {
     if (match.inlier) landmarks.mutable_at(match.feature) = match.id;
   }
-  return std::move(landmarks);
+  return landmarks;
 }
 
 }  // namespace

@@ -90,17 +90,17 @@ py::dict TermsOf(const BundleAdjustmentSummary& summary) {
 }
 
 template <typename Items>
-py::array IdsOf(const Items& items) {
+py::array_t<int64_t> IdsOf(const Items& items) {
   py::array_t<int64_t> ids(static_cast<py::ssize_t>(items.size()));
   for (size_t i = 0; i < items.size(); ++i) ids.mutable_at(i) = items[i].id;
-  return std::move(ids);
+  return ids;
 }
 
 template <typename Items>
-py::array RejectedOf(const Items& items) {
+py::array_t<bool> RejectedOf(const Items& items) {
   py::array_t<bool> rejected(static_cast<py::ssize_t>(items.size()));
   for (size_t i = 0; i < items.size(); ++i) rejected.mutable_at(i) = items[i].rejected;
-  return std::move(rejected);
+  return rejected;
 }
 
 void SetAxes(WindowData* window, const py::object& world_from_axes, bool fixed) {
@@ -119,18 +119,18 @@ void AddFactors(WindowData* window, const py::object& items) {
 }
 
 template <typename Items>
-py::array FixedOf(const Items& items) {
+py::array_t<bool> FixedOf(const Items& items) {
   py::array_t<bool> fixed(static_cast<py::ssize_t>(items.size()));
   for (size_t i = 0; i < items.size(); ++i) fixed.mutable_at(i) = items[i].fixed;
-  return std::move(fixed);
+  return fixed;
 }
 
 // One number per item.
 template <typename Items, typename Get>
-py::array NumbersOf(const Items& items, const Get& get) {
+py::array_t<double> NumbersOf(const Items& items, const Get& get) {
   py::array_t<double> numbers(static_cast<py::ssize_t>(items.size()));
   for (size_t i = 0; i < items.size(); ++i) numbers.mutable_at(i) = get(items[i]);
-  return std::move(numbers);
+  return numbers;
 }
 
 void SetKeyframeFixed(WindowData* window, int64_t keyframe, bool fixed) {

@@ -161,7 +161,7 @@ void AddPosePrior(WindowData* window, int64_t keyframe, py::handle cam_from_worl
                                  MatrixArgument(covariance, "covariance", 6, 6)});
 }
 
-py::array PosesOf(const WindowData& window) {
+py::array_t<double> PosesOf(const WindowData& window) {
   py::array_t<double> poses(
       {static_cast<py::ssize_t>(window.keyframes.size()), py::ssize_t{4}, py::ssize_t{4}});
   double* to = poses.mutable_data();
@@ -170,7 +170,7 @@ py::array PosesOf(const WindowData& window) {
     matrix = PoseMatrix(keyframe.cam_from_world);
     to += 16;
   }
-  return std::move(poses);
+  return poses;
 }
 
 py::array PointsOf(const WindowData& window) {

@@ -35,7 +35,7 @@ void AddPosePrior(WindowData* window, int64_t keyframe, pybind11::handle cam_fro
                   pybind11::handle covariance);
 
 /// (N, 4, 4), (N, 3) and (N, 6) copies of the states.
-pybind11::array PosesOf(const WindowData& window);
+pybind11::array_t<double> PosesOf(const WindowData& window);
 pybind11::array PointsOf(const WindowData& window);
 pybind11::array LinesOf(const WindowData& window);
 
