@@ -58,6 +58,12 @@ struct ReportMap {
   std::optional<Eigen::Quaterniond> world_from_axes;  ///< Manhattan axes, if there are any
 };
 
+/// A closed loop: two frames show the same place.
+struct ReportLoop {
+  int frame = 0;      ///< index in ReportData::frames of the frame that completed the loop
+  int reference = 0;  ///< index of the older frame
+};
+
 /// A stage of tracking.
 struct ReportStage {
   std::string name;
@@ -84,6 +90,7 @@ struct ReportData {
   std::vector<ReportStage> stages;                  ///< of tracking, in order of time
   std::vector<ReportFrame> frames;                  ///< in order of time
   std::vector<ReportGroundTruthPose> ground_truth;  ///< in order of time; may be empty
+  std::vector<ReportLoop> loops;                    ///< in order of time; may be empty
   ReportMap map;                                    ///< at the end of the run
   std::vector<FrameView> views;                     ///< by ascending frame; may be empty
   PinholeCamera camera;

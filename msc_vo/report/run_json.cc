@@ -93,6 +93,18 @@ Json RotationToJson(const Eigen::Matrix3d& rotation) {
   return rows;
 }
 
+// Pairs of frame indices. Loops with a frame that is not in the report are left out.
+Json LoopsToJson(const ReportData& data) {
+  const int num_frames = static_cast<int>(data.frames.size());
+  Json loops = Json::array();
+  for (const ReportLoop& loop : data.loops) {
+    if (std::min(loop.frame, loop.reference) < 0) continue;
+    if (std::max(loop.frame, loop.reference) >= num_frames) continue;
+    loops.push_back({loop.frame, loop.reference});
+  }
+  return loops;
+}
+
 Json MapToJson(const ReportMap& map) {
   std::vector<float> lines, points;
   std::vector<uint8_t> axes;
@@ -178,6 +190,7 @@ std::string FormatRunJson(const ReportData& data) {
     if (pose.position.allFinite()) Append(pose.position, &truth);
   }
   json["ground_truth"] = EncodeBase64(truth);
+  json["loops"] = LoopsToJson(data);
   json["map"] = MapToJson(data.map);
   json["views"] = Json::array();
   for (const FrameView& view : data.views) json["views"].push_back(ViewToJson(view));

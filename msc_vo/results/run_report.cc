@@ -335,6 +335,7 @@ std::string FormatReport(const OdometryResult& result, const RunSummary& summary
   data.stages = ReportStages();
   data.frames = AlignedFrames(result, context.error);
   data.self_calibration = SelfCalibration(summary, context);
+  for (const Loop& loop : result.loops) data.loops.push_back({loop.frame, loop.reference});
   data.map = FinalMap(result, ground_truth_from_world);
   data.views = IndexedViews(result.frames, context.views);
   data.camera = context.calibration.camera;

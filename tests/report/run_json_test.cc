@@ -87,6 +87,13 @@ TEST(RunJson, HasNoFramesWithoutFrames) {
   EXPECT_EQ(live["run"], "abc");
 }
 
+TEST(RunJson, ListsLoopsBetweenFramesOfTheRun) {
+  ReportData data = MakeFakeRun(5);
+  EXPECT_EQ(json::parse(FormatRunJson(data))["loops"], json::array());
+  data.loops = {{4, 0}, {3, -1}, {5, 1}};
+  EXPECT_EQ(json::parse(FormatRunJson(data))["loops"], json::parse("[[4, 0]]"));
+}
+
 TEST(RunJson, UpdatesHoldOnlyWhatIsNew) {
   RunUpdate update;
   update.run = "abc";

@@ -37,6 +37,17 @@ function trajectoryOf(model) {
   return new Float32Array(points);
 }
 
+// One segment per closed loop, between the positions of its two frames, without gaps.
+function loopSegments(model) {
+  const ends = [];
+  for (const frames of model.info.loops || []) {
+    const segment =
+        frames.flatMap((frame) => [...model.columns.pose.subarray(7 * frame, 7 * frame + 3)]);
+    if (segment.every(Number.isFinite)) ends.push(...segment);
+  }
+  return new Float32Array(ends);
+}
+
 // The fused surface. It is drawn from its front only, so that one looks into rooms from outside, and
 // a little behind its place, so that lines on it are seen.
 function makeSurface(model) {
@@ -66,6 +77,7 @@ class SceneLayers {
     this.keyframes = new ThickLines(1, 0.5);
     this.trajectory = new ThickLines(2.4);
     this.truth = new ThickLines(4, 0.5);
+    this.loops = new ThickLines(3);
     this.axes = new ThickLines(4);
     this.camera = new ThickLines(2);
     this.points = new THREE.Points(
@@ -75,11 +87,11 @@ class SceneLayers {
     this.points.frustumCulled = false;
     this.surface = makeSurface(model);
     this.camera.matrixAutoUpdate = false;
-    // In order of the keys 1 to 8: label, object.
+    // In order of the keys 1 to 9: label, object.
     this.all = [
       ["lines", this.lines], ["points", this.points], ["keyframes", this.keyframes],
       ["trajectory", this.trajectory], ["ground truth", this.truth], ["axes", this.axes],
-      ["camera", this.camera], ["surface", this.surface]
+      ["camera", this.camera], ["surface", this.surface], ["loops", this.loops]
     ];
     this.hidden = new Set();
     for (const [, object] of this.all) group.add(object);
@@ -88,6 +100,7 @@ class SceneLayers {
   // Whether the layer has anything to show.
   isEmpty(label) {
     if (label === "ground truth") return this.model.groundTruth.length === 0;
+    if (label === "loops") return !(this.model.info.loops || []).length;
     if (label === "axes") return !this.model.axes;
     if (label === "surface") return !this.model.surface;
     return false;
@@ -124,6 +137,8 @@ class SceneLayers {
     this.points.material.color.set(themeColor("faint"));
     this.fillPath(this.trajectory, trajectoryOf(model), "estimate");
     this.fillPath(this.truth, model.groundTruth, "ground-truth");
+    const loops = loopSegments(model);
+    this.loops.setSegments(loops, uniformColors(loops.length / 6, themeColor("ink")));
     this.fillKeyframes(0.035 * scale);
     this.fillAxes(0.12 * scale, colors);
     const frustum = frustumSegments(model.info.camera, 0.07 * scale);
