@@ -55,7 +55,7 @@ def prepare(scratch, root, run):
     """The data that the documents speak of."""
     shutil.copytree(root / "data" / "room", scratch / "my_sequence")
     run("msc_vo replay my_sequence --output out --quiet")
-    run("msc_vo replay my_sequence --output again --quiet --map attic.map")
+    run("msc_vo replay my_sequence --output attic --quiet --map attic.map")
     for name in ("groundtruth.txt", "edges.ply"):
         shutil.copy(scratch / "my_sequence" / name, scratch)
     shutil.copy(scratch / "out" / "trajectory.txt", scratch)
