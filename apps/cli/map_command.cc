@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -54,14 +56,15 @@ void Export(const std::string& file, const std::string& folder) {
 
 void PrintMerge(const std::string& file, const MapMerge& merge) {
   for (const MapJoin& join : merge.joins) {
-    std::cout << FormatText("%s: submap %d is joined with submap %d, by %d keyframes\n",
-                            file.c_str(), join.moved, join.kept, join.num_keyframes);
+    std::cout << FormatText("%s: a submap is joined with submap %d, by %d keyframes\n",
+                            file.c_str(), join.kept, join.num_keyframes);
   }
   if (merge.num_loops > 0) {
     std::cout << FormatText("%s: %d loops closed\n", file.c_str(), merge.num_loops);
   }
   if (merge.joins.empty()) {
-    std::cout << file << ": shows no place of the maps before it; its submaps are added apart"
+    std::cout << file
+              << ": no common place with the maps before it; its submaps keep their own worlds"
               << std::endl;
   }
 }
@@ -70,13 +73,19 @@ void Merge(const std::vector<std::string>& files, const std::string& output) {
   if (HasEntry(output)) {
     throw std::runtime_error(output + ": exists; give the merged map another name");
   }
+  CheckWritable(output);
   MapContents contents = LoadMap(files.front());
   for (size_t i = 1; i < files.size(); ++i) {
     MapMerge merge = MergeMaps({}, std::move(contents), LoadMap(files[i]));
     PrintMerge(files[i], merge);
     contents = std::move(merge.contents);
   }
-  SaveMap(output, std::move(contents));
+  try {
+    SaveMap(output, std::move(contents));
+  } catch (...) {
+    std::filesystem::remove(output);  // it did not exist before
+    throw;
+  }
 }
 
 int Run(const MapCommandArguments& arguments) {
@@ -108,6 +117,13 @@ void Check(const MapCommandArguments& arguments) {
   }
   if (merges && arguments.files.size() < 2) {
     throw CLI::ValidationError("files", "map merge needs two map files or more");
+  }
+  for (size_t i = 0; merges && i < arguments.files.size(); ++i) {
+    for (size_t k = 0; k < i; ++k) {
+      std::error_code missing;
+      if (!std::filesystem::equivalent(arguments.files[i], arguments.files[k], missing)) continue;
+      throw CLI::ValidationError("files", arguments.files[i] + " is given twice");
+    }
   }
   if (!merges && arguments.files.size() > 1) {
     throw CLI::ValidationError("files", "map " + arguments.action + " takes one map file");

@@ -12,7 +12,7 @@
 
 namespace msc_vo {
 
-/// What a callback of window factors gets: the context, and the window while the callback runs.
+/// Argument of a callback of window factors: the context, and the window while the callback runs.
 struct PyWindowContext {
   explicit PyWindowContext(const WindowContext& context_in) : context(context_in) {}
 

@@ -88,6 +88,8 @@ class PyOdometry {
     Alone([&, path = PathArgument(file)] {
       MapContents map = LoadMap(path);
       const int num_worlds = static_cast<int>(map.submaps.size());
+      if (only_localize && num_worlds == 0)
+        throw std::invalid_argument(path + ": has no keyframes");
       odometry_->SetMap(std::move(map));
       if (only_localize) num_worlds_ = num_worlds;
     });
@@ -115,10 +117,7 @@ class PyOdometry {
     image.gray = GrayArgument(gray, "gray");
     image.depth = DepthArgument(depth, depth_scale, "depth");
     if (!depth_scale.is_none() && image.id < kNumChecked) CheckByteOrder(image.depth, depth_scale);
-    return Alone([&] {
-      const FrameResult frame = odometry_->Process(image);
-      return num_worlds_ ? KeepLocalizedPose(*num_worlds_, frame) : frame;
-    });
+    return Alone([&] { return Reported(odometry_->Process(image)); });
   }
 
   FrameResult Drop(const py::object& timestamp, const std::string& status) {
@@ -130,7 +129,7 @@ class PyOdometry {
     const TrackingStatus value =
         status == "dropped" ? TrackingStatus::kDropped : TrackingStatus::kUnreadable;
     const int64_t id = NextId();
-    return Alone([&] { return odometry_->Drop(id, time, value); });
+    return Alone([&] { return Reported(odometry_->Drop(id, time, value)); });
   }
 
   bool MappingPending() {
@@ -151,7 +150,11 @@ class PyOdometry {
   }
 
   std::vector<FrameResult> Frames() {
-    return Alone([&] { return odometry_->frames(); });
+    return Alone([&] {
+      std::vector<FrameResult> frames = odometry_->frames();
+      for (FrameResult& frame : frames) frame = Reported(frame);
+      return frames;
+    });
   }
 
   void SetWindowFactors(const py::object& callback) {
@@ -251,12 +254,17 @@ class PyOdometry {
     return Alone([&] { return static_cast<int64_t>(odometry_->frames().size()); });
   }
 
+  // The frame as a run that is only localised reports it; other runs: as it is.
+  FrameResult Reported(const FrameResult& frame) const {
+    return num_worlds_ ? KeepLocalizedPose(*num_worlds_, frame) : frame;
+  }
+
   static constexpr int64_t kNumChecked = 4;  // images whose byte order is checked
 
   std::unique_ptr<Odometry> odometry_;
   RunCheckpoint checkpoint_;
   ForkGuard process_;
-  std::optional<int> num_worlds_;  // of a map that the run is only localised in
+  std::optional<int> num_worlds_;  // of the map, if the run is only localised in it
   bool has_threads_;
   bool is_usable_ = true;  // a checkpoint has not been read in part
   std::atomic<bool> busy_ = false;

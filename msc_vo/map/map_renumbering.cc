@@ -9,7 +9,7 @@ namespace msc_vo {
 
 namespace {
 
-// What is added to ids.
+// Offsets added to ids.
 struct IdOffset {
   KeyframeId keyframe = 0;
   LandmarkId landmark = 0;

@@ -8,7 +8,7 @@
 namespace msc_vo {
 
 /// Gives the sessions, submaps, keyframes and landmarks of `second` ids that follow those of
-/// `first`, so that no id means two things. Keyframes that were removed from its maps are
+/// `first`, so that ids are unique over both. Keyframes that were removed from its maps are
 /// forgotten.
 void RenumberAfter(const MapContents& first, MapContents* second);
 

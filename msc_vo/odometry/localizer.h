@@ -7,7 +7,7 @@
 
 namespace msc_vo {
 
-/// Finds a camera in a saved map, which remains as it is: an Odometry that gives no poses but those
+/// Finds a camera in a saved map, which remains as it is: an Odometry that returns only poses
 /// in the world of the map.
 class Localizer {
  public:
@@ -17,11 +17,11 @@ class Localizer {
             const LensDistortion& distortion, MapContents map);
 
   /// Tracks one image as Odometry::Process() does. A frame that is not in the world of the map,
-  /// because the camera has not been found yet or is where the map shows nothing, is lost.
+  /// because the camera has not been found yet or is outside of the mapped area, is lost.
   FrameResult Process(const RgbdImage& image);
 
   /// The poses of all frames in the world of the map, from the first one that was found there on.
-  /// Frames that Process() lost because they came before that are not found later.
+  /// That frame precedes the first pose of Process() by as long as the join took to be adopted.
   OdometryResult Finish();
 
   /// For what is set up before the first image, such as pose factors.

@@ -3,6 +3,8 @@
 
 #include "msc_vo/odometry/map_merge.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <utility>
 
@@ -18,9 +20,30 @@ namespace msc_vo {
 
 namespace {
 
-// Time that a keyframe is searched for, as if it were a frame that comes so long after the one
-// before it: ten keyframes of inactive maps are tried.
-constexpr double kSearchSeconds = 10.0 / 30.0;
+// Search budget of a keyframe, seconds since the frame before it: six keyframes of inactive maps
+// are tried.
+constexpr double kSearchSeconds = 6.0 / 30.0;
+
+bool IsInOneMap(const std::vector<SavedSubMap>& submaps, const PoseGraphEdge& edge) {
+  return std::any_of(submaps.begin(), submaps.end(), [&](const SavedSubMap& submap) {
+    return submap.map.FindKeyframe(edge.from) != nullptr &&
+           submap.map.FindKeyframe(edge.to) != nullptr;
+  });
+}
+
+// Removes submaps without keyframes, and loop edges of culled keyframes: the keyframe before a
+// culled one may be that of another file. The landmarks that both places share remain.
+void RemoveRemnants(MapContents* contents) {
+  std::vector<SavedSubMap>& submaps = contents->submaps;
+  submaps.erase(
+      std::remove_if(submaps.begin(), submaps.end(),
+                     [](const SavedSubMap& submap) { return submap.map.keyframes().empty(); }),
+      submaps.end());
+  std::vector<PoseGraphEdge>& loops = contents->loops;
+  loops.erase(std::remove_if(loops.begin(), loops.end(),
+                             [&](const PoseGraphEdge& edge) { return !IsInOneMap(submaps, edge); }),
+              loops.end());
+}
 
 // The landmarks that a keyframe observes, without their geometry.
 template <typename L>
@@ -35,7 +58,7 @@ void AddMatches(const Keyframe& keyframe, Matches<L>* matches) {
   }
 }
 
-// Searches the keyframes of a map in others, as a run does with its own.
+// Relocalizes the keyframes of maps in those of others.
 class MapMerger {
  public:
   MapMerger(const OdometryOptions& options, MapContents first)
@@ -48,6 +71,7 @@ class MapMerger {
 
   void Add(MapContents second) {
     loops_.AddEdges(second.loops);
+    sessions_ = std::move(second.sessions);
     for (SavedSubMap& submap : second.submaps) Add(std::move(submap));
   }
 
@@ -73,15 +97,18 @@ class MapMerger {
     std::vector<KeyframeId> keyframes;
     for (const auto& [id, keyframe] : submap.map.keyframes()) keyframes.push_back(id);
     PlaceSearch places(options_.tracking);
+    std::ptrdiff_t session = 0;
     bool is_joined = false;
     for (const KeyframeId id : keyframes) {
-      Map* const map = &atlas_.current().map;
-      if (map->FindKeyframe(id) == nullptr) continue;  // culled
+      if (SessionOf(id) != session) {
+        session = SessionOf(id);
+        places = PlaceSearch(options_.tracking);  // times of two sessions cannot be compared
+      }
       const TrackedFrame tracked = AsTracked(id);
       const MapSnapshot snapshot = Snapshot(id);
       places.Update(snapshot);
       const auto revisit = places.FindRevisit(tracked, true, snapshot, kSearchSeconds);
-      if (revisit && Use({id, tracked.pose.covariance, *revisit})) is_joined = true;
+      if (revisit) Use({id, tracked.pose.covariance, *revisit}, &is_joined);
     }
     if (is_joined) Tidy(keyframes);
   }
@@ -96,7 +123,13 @@ class MapMerger {
     return snapshot;
   }
 
-  // A keyframe as the frame that it was, tracked in its own map.
+  // The number of sessions of the second map that began up to this keyframe.
+  std::ptrdiff_t SessionOf(KeyframeId id) const {
+    return std::count_if(sessions_.begin(), sessions_.end(),
+                         [id](const MapSession& session) { return session.first_keyframe <= id; });
+  }
+
+  // The tracking result of a keyframe in its own map.
   TrackedFrame AsTracked(KeyframeId id) const {
     const Map& map = atlas_.current().map;
     const Keyframe& keyframe = *map.FindKeyframe(id);
@@ -122,23 +155,24 @@ class MapMerger {
     return tracked;
   }
 
-  // Returns whether it joined two maps.
-  bool Use(const KeyframeRevisit& found) {
+  // Joins the current map with another one, or closes a loop in it after a join.
+  void Use(const KeyframeRevisit& found, bool* is_joined) {
     Map* const map = &atlas_.current().map;
     if (map->KnowsKeyframe(found.revisit.reference)) {
+      if (!*is_joined) return;  // a loop that its own run has not closed
       loops_.AddRevisit(found);
       loops_.TryClose(map);
-      return false;
+      return;
     }
     joiner_.Add(found);
     const std::optional<MapJoin> join = joiner_.TryJoin(&atlas_);
-    if (!join) return false;
+    if (!join) return;
     joins_.push_back(*join);
     loops_.Clear();  // the world of the visits may be another
-    return true;
+    *is_joined = true;
   }
 
-  // Both maps have shown the same place: one is enough.
+  // Fuses duplicate landmarks and culls redundant keyframes.
   void Tidy(const std::vector<KeyframeId>& keyframes) {
     Map* const map = &atlas_.current().map;
     for (const KeyframeId id : keyframes) {
@@ -153,22 +187,27 @@ class MapMerger {
   LandmarkCare care_;
   MapJoiner joiner_;
   LoopCloser loops_;
+  std::vector<MapSession> sessions_;  // of the second map
   std::vector<MapJoin> joins_;
 };
 
 }  // namespace
 
 MapMerge MergeMaps(const OdometryOptions& options, MapContents first, MapContents second) {
-  if (first.submaps.empty()) return {std::move(second), {}, 0};
   RenumberAfter(first, &second);
-  const PinholeCamera camera = first.submaps.front().map.keyframes().front().second.frame->camera;
-  for (SavedSubMap& submap : second.submaps) ChangeKeyframeCamera(camera, &submap.map);
+  RemoveRemnants(&first);
+  RemoveRemnants(&second);
+  if (!first.submaps.empty()) {
+    const PinholeCamera camera = first.submaps[0].map.keyframes().front().second.frame->camera;
+    for (SavedSubMap& submap : second.submaps) ChangeKeyframeCamera(camera, &submap.map);
+  }
   std::vector<MapSession> sessions = std::move(first.sessions);
   sessions.insert(sessions.end(), second.sessions.begin(), second.sessions.end());
   MapMerger merger(options, std::move(first));
   merger.Add(std::move(second));
   MapMerge result = merger.Result();
   result.contents.sessions = std::move(sessions);
+  RemoveRemnants(&result.contents);
   return result;
 }
 

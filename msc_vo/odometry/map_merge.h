@@ -11,7 +11,7 @@
 
 namespace msc_vo {
 
-/// Two maps that became one, as far as they show common places.
+/// Result of merging two maps.
 struct MapMerge {
   MapContents contents;
   std::vector<MapJoin> joins;  ///< of submaps, in their order
@@ -23,8 +23,9 @@ struct MapMerge {
 /// loops are closed, duplicates of landmarks become one, and redundant keyframes go. Submaps
 /// without a common place keep worlds of their own.
 ///
-/// Worlds, ids and sessions of `first` are kept, those of `second` follow them. The keyframes of
-/// `second` are expressed in the camera of `first`.
+/// Worlds, sessions, and ids of keyframes and landmarks of `first` are kept, those of `second`
+/// follow them; submaps are numbered anew. The keyframes of `second` are expressed in the camera of
+/// `first`. Throws std::invalid_argument on invalid options.
 MapMerge MergeMaps(const OdometryOptions& options, MapContents first, MapContents second);
 
 }  // namespace msc_vo

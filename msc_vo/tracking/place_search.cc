@@ -136,8 +136,7 @@ std::optional<Revisit> PlaceSearch::FindRevisit(const TrackedFrame& tracked, boo
                                                 const MapSnapshot& snapshot, double seconds) {
   if (tracked.status != TrackingStatus::kTracked) return std::nullopt;
   const double timestamp = tracked.frame->timestamp;
-  // The keyframes of several sessions need not be in the order of their times.
-  if (std::abs(timestamp - last_success_) < options_.segments.search_interval) return std::nullopt;
+  if (timestamp - last_success_ < options_.segments.search_interval) return std::nullopt;
   std::optional<Revisit> found = FindInInactiveMaps(tracked, snapshot, seconds);
   if (!found && is_keyframe && options_.find_loops) found = FindLoop(tracked, snapshot);
   if (found) last_success_ = timestamp;

@@ -128,7 +128,7 @@ TEST_F(MapCommandTest, MergesMapsByTheirPlaces) {
                                              Path("corridor.map"), "--output", Path("all.map")});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   EXPECT_THAT(outcome.output, AllOf(LineNames("second.map", "is joined", "submap 0", "keyframes"),
-                                    LineNames("corridor.map", "shows no place")));
+                                    LineNames("corridor.map", "no common place")));
   EXPECT_TRUE(ReadFile(Path("home.map")) == first);
   ExpectMap("all.map", 3);
   const MapFileSummary one = SummarizeMap(Path("home.map")), all = SummarizeMap(Path("all.map"));
@@ -144,8 +144,12 @@ TEST_F(MapCommandTest, RefusesToMergeWhatItCannot) {
   EXPECT_EQ(RunCommand({"map", "merge", Path("home.map"), "--output", Path("a.map")}).exit_code, 2);
   EXPECT_EQ(RunCommand({"map", "merge", Path("home.map"), Path("home.map")}).exit_code, 2);
   EXPECT_EQ(RunCommand({"map", "check", Path("home.map"), Path("home.map")}).exit_code, 2);
+  const CommandOutcome twice =
+      RunCommand({"map", "merge", Path("home.map"), Path("home.map"), "--output", Path("a.map")});
+  EXPECT_EQ(twice.exit_code, 2);
+  EXPECT_THAT(twice.output, Names(Path("home.map"), "twice"));
   const CommandOutcome outcome = RunCommand(
-      {"map", "merge", Path("home.map"), Path("home.map"), "--output", Path("home.map")});
+      {"map", "merge", Path("home.map"), Path("text.map"), "--output", Path("home.map")});
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.output, Names("error:", Path("home.map"), "exists"));
   WriteText("text.map", "no map\n");

@@ -213,6 +213,21 @@ TEST_F(SessionsTest, MergesMapsOfTheSamePlace) {
   }
 }
 
+TEST_F(SessionsTest, MergesMapsWithoutKeyframes) {
+  MapContents empty;
+  empty.sessions = {{0, "empty"}};
+  empty.submaps.emplace_back();
+  const MapMerge after = MergeMaps(Options(), std::move(empty), Map());
+  EXPECT_TRUE(after.joins.empty());
+  ASSERT_EQ(after.contents.submaps.size(), 1u);
+  EXPECT_EQ(after.contents.sessions.size(), 2u);
+  MapContents again;
+  again.submaps.emplace_back();
+  const MapMerge before = MergeMaps(Options(), Map(), std::move(again));
+  ASSERT_EQ(before.contents.submaps.size(), 1u);
+  EXPECT_EQ(before.contents.submaps[0].map.points().size(), first_->submaps[0].map.points().size());
+}
+
 TEST_F(SessionsTest, MergesNothingOfAnotherPlace) {
   SyntheticSequenceOptions other = RoomOptions();
   other.seed = 7;
