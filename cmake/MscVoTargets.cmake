@@ -17,6 +17,10 @@ function(msc_vo_compile_options target)
                          $<$<AND:${together},$<CXX_COMPILER_ID:GNU>>:-Wno-subobject-linkage>)
   if(MSC_VO_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
+      # GCC 14 warns about the values of empty std::optional objects that are copied.
+      target_compile_options(${target} PRIVATE -Wno-error=maybe-uninitialized)
+    endif()
   endif()
   if(MSC_VO_NATIVE)
     # PUBLIC: Eigen's memory layout depends on it, so a consumer must be compiled alike.
