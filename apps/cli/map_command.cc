@@ -83,7 +83,8 @@ void Merge(const std::vector<std::string>& files, const std::string& output) {
   try {
     SaveMap(output, std::move(contents));
   } catch (...) {
-    std::filesystem::remove(output);  // it did not exist before
+    std::error_code ignored;
+    std::filesystem::remove(output, ignored);  // it did not exist before
     throw;
   }
 }

@@ -80,6 +80,8 @@ class PyOdometry {
       }
       is_usable_ = false;
       checkpoint_.Restore(path, odometry_.get());
+      // The map of the checkpoint replaces that of load_map().
+      if (num_worlds_) num_worlds_ = NumEarlierWorlds(odometry_->Finish());
       is_usable_ = true;
     });
   }

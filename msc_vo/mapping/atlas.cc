@@ -29,14 +29,19 @@ SubMap Atlas::MakeEmpty() const {
   return {kNoSubMap, {}, SceneAxes(axes_), NoiseEstimator(noise_)};
 }
 
+SubMap Atlas::Restored(SavedSubMap saved) const {
+  SubMap submap = MakeEmpty();
+  submap.map = std::move(saved.map);
+  submap.map.BeginSession();
+  if (saved.axes) submap.axes.Restore(*saved.axes);
+  submap.noise.Restore(saved.noise_scale);
+  return submap;
+}
+
 void Atlas::BeginWith(std::vector<SavedSubMap> submaps) {
   for (SavedSubMap& saved : submaps) {
-    SubMap submap = MakeEmpty();
+    SubMap submap = Restored(std::move(saved));
     submap.id = static_cast<SubMapId>(inactive_.size());
-    submap.map = std::move(saved.map);
-    submap.map.BeginSession();
-    if (saved.axes) submap.axes.Restore(*saved.axes);
-    submap.noise.Restore(saved.noise_scale);
     current_.map.ContinueIds(submap.map.next_keyframe(), submap.map.next_landmark());
     inactive_.push_back(std::move(submap));
     inactive_maps_.push_back(Share(&inactive_.back()));
@@ -44,6 +49,13 @@ void Atlas::BeginWith(std::vector<SavedSubMap> submaps) {
   current_.map.BeginSession();
   current_.id = static_cast<SubMapId>(inactive_.size());
   next_id_ = current_.id + 1;
+}
+
+void Atlas::BeginWith(SavedSubMap submap) {
+  if (!current_.map.keyframes().empty()) Begin(true);
+  const SubMapId id = current_.id;
+  current_ = Restored(std::move(submap));
+  current_.id = id;
 }
 
 std::vector<SavedSubMap> Atlas::ShareSubMaps() {

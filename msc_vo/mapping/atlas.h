@@ -31,6 +31,9 @@ class Atlas {
   /// Begins with the submaps of earlier sessions, by ascending id, as inactive ones. They have the
   /// ids 0, 1, ..., and the current one the next id. Call it before the first keyframe.
   void BeginWith(std::vector<SavedSubMap> submaps);
+  /// Begins a submap as Begin(true) does, with one of an earlier session. Its ids must differ from
+  /// those of the other submaps.
+  void BeginWith(SavedSubMap submap);
   /// All submaps that are not empty, by ascending id. They share memory with the atlas.
   std::vector<SavedSubMap> ShareSubMaps();
 
@@ -65,6 +68,7 @@ class Atlas {
  private:
   // Without an id.
   SubMap MakeEmpty() const;
+  SubMap Restored(SavedSubMap saved) const;
 
   SceneAxesOptions axes_;
   NoiseEstimatorOptions noise_;

@@ -85,11 +85,18 @@ PoseGraph LoopCloser::MakeGraph(const Map& map) const {
     }
     last = id;
   }
+  // A keyframe that was culled is represented by the one before it, unless that is of another
+  // session and may be anywhere. The map does not know those of other maps, nor those that were
+  // culled before it was saved.
+  const auto represent = [&map](KeyframeId id) {
+    const auto* entry = map.KnowsKeyframe(id) ? map.keyframes().FindUpTo(id) : nullptr;
+    const bool is_near =
+        entry != nullptr && map.IsOfEarlierSession(entry->first) == map.IsOfEarlierSession(id);
+    return is_near ? entry : nullptr;
+  };
   for (const PoseGraphEdge& edge : loop_edges_) {
-    // With the relative pose after later bundle adjustment. A keyframe that was culled is
-    // represented by the one before it.
-    const auto* from = map.keyframes().FindUpTo(edge.from);
-    const auto* to = map.keyframes().FindUpTo(edge.to);
+    // With the relative pose after later bundle adjustment.
+    const auto *from = represent(edge.from), *to = represent(edge.to);
     if (from == nullptr || to == nullptr || from->first == to->first) continue;
     add(from->first, to->first, CameraCovariance(edge.to_from_from, edge.covariance));
   }

@@ -24,25 +24,12 @@ namespace {
 // are tried.
 constexpr double kSearchSeconds = 6.0 / 30.0;
 
-bool IsInOneMap(const std::vector<SavedSubMap>& submaps, const PoseGraphEdge& edge) {
-  return std::any_of(submaps.begin(), submaps.end(), [&](const SavedSubMap& submap) {
-    return submap.map.FindKeyframe(edge.from) != nullptr &&
-           submap.map.FindKeyframe(edge.to) != nullptr;
-  });
-}
-
-// Removes submaps without keyframes, and loop edges of culled keyframes: the keyframe before a
-// culled one may be that of another file. The landmarks that both places share remain.
-void RemoveRemnants(MapContents* contents) {
+void RemoveEmptySubMaps(MapContents* contents) {
   std::vector<SavedSubMap>& submaps = contents->submaps;
   submaps.erase(
       std::remove_if(submaps.begin(), submaps.end(),
                      [](const SavedSubMap& submap) { return submap.map.keyframes().empty(); }),
       submaps.end());
-  std::vector<PoseGraphEdge>& loops = contents->loops;
-  loops.erase(std::remove_if(loops.begin(), loops.end(),
-                             [&](const PoseGraphEdge& edge) { return !IsInOneMap(submaps, edge); }),
-              loops.end());
 }
 
 // The landmarks that a keyframe observes, without their geometry.
@@ -86,16 +73,11 @@ class MapMerger {
 
  private:
   void Add(SavedSubMap saved) {
-    if (!atlas_.current().map.keyframes().empty()) atlas_.Begin(true);
-    SubMap& submap = atlas_.current();
-    submap.map = std::move(saved.map);
-    submap.map.BeginSession();
-    if (saved.axes) submap.axes.Restore(*saved.axes);
-    submap.noise.Restore(saved.noise_scale);
+    atlas_.BeginWith(std::move(saved));
     joiner_.Clear();
     loops_.Clear();
     std::vector<KeyframeId> keyframes;
-    for (const auto& [id, keyframe] : submap.map.keyframes()) keyframes.push_back(id);
+    for (const auto& [id, keyframe] : atlas_.current().map.keyframes()) keyframes.push_back(id);
     PlaceSearch places(options_.tracking);
     std::ptrdiff_t session = 0;
     bool is_joined = false;
@@ -108,9 +90,9 @@ class MapMerger {
       const MapSnapshot snapshot = Snapshot(id);
       places.Update(snapshot);
       const auto revisit = places.FindRevisit(tracked, true, snapshot, kSearchSeconds);
-      if (revisit) Use({id, tracked.pose.covariance, *revisit}, &is_joined);
+      if (revisit) JoinOrClose({id, tracked.pose.covariance, *revisit}, &is_joined);
     }
-    if (is_joined) Tidy(keyframes);
+    if (is_joined) FuseAndCull(keyframes);
   }
 
   MapSnapshot Snapshot(KeyframeId newest) {
@@ -156,7 +138,7 @@ class MapMerger {
   }
 
   // Joins the current map with another one, or closes a loop in it after a join.
-  void Use(const KeyframeRevisit& found, bool* is_joined) {
+  void JoinOrClose(const KeyframeRevisit& found, bool* is_joined) {
     Map* const map = &atlas_.current().map;
     if (map->KnowsKeyframe(found.revisit.reference)) {
       if (!*is_joined) return;  // a loop that its own run has not closed
@@ -165,15 +147,20 @@ class MapMerger {
       return;
     }
     joiner_.Add(found);
+    const SubMap* other = atlas_.FindSubMapOf(found.revisit.reference);
+    const SubMapId other_id = other->id;
+    const NoiseEstimator noise = other->noise;
     const std::optional<MapJoin> join = joiner_.TryJoin(&atlas_);
     if (!join) return;
+    // In a run, both submaps have the noise of its sensor. Here, the older one keeps its own.
+    if (join->kept == other_id) atlas_.current().noise = noise;
     joins_.push_back(*join);
     loops_.Clear();  // the world of the visits may be another
     *is_joined = true;
   }
 
   // Fuses duplicate landmarks and culls redundant keyframes.
-  void Tidy(const std::vector<KeyframeId>& keyframes) {
+  void FuseAndCull(const std::vector<KeyframeId>& keyframes) {
     Map* const map = &atlas_.current().map;
     for (const KeyframeId id : keyframes) {
       if (map->FindKeyframe(id) == nullptr) continue;
@@ -195,8 +182,8 @@ class MapMerger {
 
 MapMerge MergeMaps(const OdometryOptions& options, MapContents first, MapContents second) {
   RenumberAfter(first, &second);
-  RemoveRemnants(&first);
-  RemoveRemnants(&second);
+  RemoveEmptySubMaps(&first);
+  RemoveEmptySubMaps(&second);
   if (!first.submaps.empty()) {
     const PinholeCamera camera = first.submaps[0].map.keyframes().front().second.frame->camera;
     for (SavedSubMap& submap : second.submaps) ChangeKeyframeCamera(camera, &submap.map);
@@ -207,7 +194,6 @@ MapMerge MergeMaps(const OdometryOptions& options, MapContents first, MapContent
   merger.Add(std::move(second));
   MapMerge result = merger.Result();
   result.contents.sessions = std::move(sessions);
-  RemoveRemnants(&result.contents);
   return result;
 }
 

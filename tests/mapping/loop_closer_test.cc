@@ -85,6 +85,24 @@ TEST_F(LoopCloserTest, CorrectsThePathIfThreeKeyframesAgree) {
   EXPECT_FALSE(closer_.TryClose(&map_));  // it is closed
 }
 
+// The keyframe with the next lower id may be anywhere: it must not be bound to keyframe 10.
+TEST_F(LoopCloserTest, IgnoresLoopsOfKeyframesThatTheMapDoesNotKnow) {
+  map_.AddKeyframe(map_.FindKeyframe(39)->frame, map_.CamFromWorld(39), 45);
+  Map with_edge = map_.Share();
+  LoopCloser closer;
+  closer.AddEdges({{10, 43, Rigid3(), 1e-6 * kCovariance}});
+  for (const int i : {36, 37, 38}) {
+    Revisit(i, i - kNumInRound, 0.0);
+    closer.AddRevisit(
+        {i, kCovariance, {i - kNumInRound, Truth(i) * Truth(i - 36).Inverse(), kCovariance, {}}});
+  }
+  ASSERT_TRUE(closer_.TryClose(&map_));
+  ASSERT_TRUE(closer.TryClose(&with_edge));
+  for (const auto& [id, keyframe] : map_.keyframes()) {
+    EXPECT_EQ(with_edge.CamFromWorld(id).params, keyframe.cam_from_world.params) << id;
+  }
+}
+
 TEST_F(LoopCloserTest, RefusesWhatDriftCannotExplain) {
   const Map before = map_.Share();
   for (const int i : {36, 37, 38}) {

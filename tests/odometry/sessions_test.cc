@@ -184,14 +184,15 @@ TEST_F(SessionsTest, LocalizerGivesPosesInTheMapOnly) {
   EXPECT_GT(first, 0);
   EXPECT_LT(first, 25);
   const OdometryResult result = localizer.Finish();
-  EXPECT_EQ(IsEstimated(result.frames[first].status), true);
-  EXPECT_EQ(IsEstimated(result.frames[0].status), false);
+  EXPECT_TRUE(IsEstimated(result.frames[first].status));
+  EXPECT_FALSE(IsEstimated(result.frames[0].status));
   EXPECT_THROW(Localizer(Options(), camera_, LensDistortion(), {}), std::invalid_argument);
 }
 
 // Both were made by the same images: the second one is where the first one is.
 TEST_F(SessionsTest, MergesMapsOfTheSamePlace) {
   MapContents second = Map();
+  second.submaps[0].noise_scale = {2.0, 2.0, 2.0};
   const Rigid3 moved(Eigen::Quaterniond(Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitY())),
                      {3.0, -1.0, 2.0});
   second.submaps[0].map.Transform(moved);
@@ -204,9 +205,11 @@ TEST_F(SessionsTest, MergesMapsOfTheSamePlace) {
   const Rigid3 error = merge.joins[0].moved_from_kept * moved.Inverse();
   EXPECT_LT(error.translation().norm(), 0.005);
   EXPECT_LT(error.rotation().angularDistance(Eigen::Quaterniond::Identity()), 0.002);
+  EXPECT_NEAR(merge.contents.submaps[0].noise_scale.line_pixel,
+              first_->submaps[0].noise_scale.line_pixel, 1e-9);
   const msc_vo::Map& both = merge.contents.submaps[0].map;
   EXPECT_EQ(FirstViolation(both), "");
-  EXPECT_LT(both.points().size(), 1.3 * one.points().size());
+  EXPECT_LT(both.points().size(), 1.1 * one.points().size());  // measured: 892 and 978
   for (const auto& [id, keyframe] : one.keyframes()) {
     if (both.FindKeyframe(id) == nullptr) continue;  // redundant now
     EXPECT_EQ(both.CamFromWorld(id).params, keyframe.cam_from_world.params);

@@ -86,8 +86,15 @@ class Session(unittest.TestCase):
                 second.load_map(path)
             second.save_map(path)
             third = msc_vo.Localizer(options, sequence.camera, path, distortion=sequence.lens)
-        status = [third.process(image.timestamp, image.gray, image.depth).status
-                  for image in sequence]
+            images = list(sequence)
+            status = [third.process(image.timestamp, image.gray, image.depth).status
+                      for image in images[:5]]
+            self.assertEqual([frame.status for frame in third.frames], status)
+            third.save(pathlib.Path(folder, "run"))
+            third = msc_vo.Localizer(options, sequence.camera, path, distortion=sequence.lens)
+            third.restore(pathlib.Path(folder, "run"))
+        status += [third.process(image.timestamp, image.gray, image.depth).status
+                   for image in images[5:]]
         begin = third.finish().first_localized_frame
         adopted = status.index("tracked")  # the first frame that sees the joined map
         self.assertTrue(0 < begin <= adopted < len(sequence) // 2)

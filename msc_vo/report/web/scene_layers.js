@@ -100,7 +100,7 @@ class SceneLayers {
   // Whether the layer has anything to show.
   isEmpty(label) {
     if (label === "ground truth") return this.model.groundTruth.length === 0;
-    if (label === "loops") return !(this.model.info.loops || []).length;
+    if (label === "loops") return loopSegments(this.model).length === 0;
     if (label === "axes") return !this.model.axes;
     if (label === "surface") return !this.model.surface;
     return false;
