@@ -16,7 +16,7 @@ import tree_check
 # Lowest first. Folders of one layer do not include each other.
 LAYERS = [
     ["camera", "text", "timing"],
-    ["geometry", "checkpoint"],
+    ["geometry", "checkpoint", "image_files"],
     ["frame", "factors", "evaluation", "sensor", "synthetic/scene", "report"],
     ["bundle_adjustment"],
     ["map", "synthetic/window"],
@@ -32,8 +32,8 @@ LAYER_OF = {folder: layer for layer, folders in enumerate(LAYERS) for folder in 
 
 # Header pattern -> folders that may include it. Headers that no pattern matches are allowed everywhere.
 OUTSIDE_HEADERS = [
-    (r"opencv2/", {"sensor", "features", "datasets", "ros_bag", "openni", "odometry", "diagnosis", "results",
-                   "apps"}),
+    (r"opencv2/", {"image_files", "sensor", "features", "datasets", "ros_bag", "openni", "odometry", "diagnosis",
+                   "results", "apps"}),
     (r"(rosbag|ros)/", {"ros_bag"}),
     (r"(OpenNI\.h|openni2/)", {"openni"}),
     (r"sqlite3\.h$", {"map_file"}),

@@ -9,6 +9,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "apps/cli/modules.h"
 #include "msc_vo/results/tracked_features.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
@@ -42,12 +43,6 @@ void DrawLabel(const FrameResult& frame, cv::Mat* image) {
   }
 }
 
-// Number of images that a video holds; 0 if it cannot be read.
-int CountImages(const std::string& path) {
-  const cv::VideoCapture video(path, cv::CAP_FFMPEG);
-  return video.isOpened() ? cvRound(video.get(cv::CAP_PROP_FRAME_COUNT)) : 0;
-}
-
 }  // namespace
 
 cv::Mat DrawFeatures(const cv::Mat& gray, const ViewedFeatures& features) {
@@ -72,11 +67,8 @@ OverlayVideo::OverlayVideo(const std::string& path, double frame_rate, int width
     : path_(path), covered_(0, 0, width / 2 * 2, height / 2 * 2), distortion_(distortion) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   if (!folder.empty()) MakeFolder(folder.string());
-  // H.264, which browsers play, and otherwise MPEG-4.
-  for (const char* codec : {"avc1", "mp4v"}) {
-    const int fourcc = cv::VideoWriter::fourcc(codec[0], codec[1], codec[2], codec[3]);
-    if (writer_.open(path, cv::CAP_FFMPEG, fourcc, frame_rate, covered_.size(), true)) return;
-  }
+  video_ = LoadVideoFile();
+  if (video_->Open(path, frame_rate, covered_.size())) return;
   throw std::runtime_error(
       path +
       ": cannot be written as a video; check that the folder can be written, "
@@ -86,20 +78,20 @@ OverlayVideo::OverlayVideo(const std::string& path, double frame_rate, int width
 void OverlayVideo::Add(const TrackedImage& tracked) {
   cv::Mat image = DrawFeatures(tracked.image.gray, TrackedFeatures(tracked, distortion_))(covered_);
   DrawLabel(tracked.result, &image);
-  writer_.write(image);
+  video_->Write(image);
   ++num_images_;
 }
 
 void OverlayVideo::Finish() {
-  writer_.release();
+  video_->Close();
   // The encoder does not say that it could not write.
-  if (num_images_ == CountImages(path_)) return;
+  if (num_images_ == video_->CountImages(path_)) return;
   Remove();
   throw std::runtime_error(path_ + ": the video could not be written; is the disk full?");
 }
 
 void OverlayVideo::Remove() {
-  writer_.release();
+  video_->Close();
   std::error_code ignored;
   std::filesystem::remove(path_, ignored);
 }

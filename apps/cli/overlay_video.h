@@ -3,10 +3,12 @@
 
 #pragma once
 
+#include <memory>
 #include <string>
 
-#include <opencv2/videoio.hpp>
+#include <opencv2/core.hpp>
 
+#include "apps/video/video_file.h"
 #include "msc_vo/camera/lens_distortion.h"
 #include "msc_vo/odometry/tracking_observer.h"
 #include "msc_vo/report/frame_view.h"
@@ -40,7 +42,7 @@ class OverlayVideo {
   std::string path_;
   cv::Rect covered_;  // encoders need even sizes
   LensDistortion distortion_;
-  cv::VideoWriter writer_;
+  std::unique_ptr<VideoFile> video_;
   int num_images_ = 0;
 };
 

@@ -11,24 +11,20 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "msc_vo/image_files/opencv_codecs.h"
+
 namespace msc_vo {
 
 namespace {
-
-std::string Encode(const std::string& extension, const cv::Mat& image,
-                   const std::vector<int>& parameters) {
-  std::vector<uchar> bytes;
-  cv::imencode(extension, image, bytes, parameters);
-  return {bytes.begin(), bytes.end()};
-}
 
 std::string EncodeColor(const ColorEncoding& encoding, RenderedImage* image) {
   const cv::Mat rgb(image->height, image->width, CV_8UC3, image->rgb.data());
   cv::Mat bgr;
   cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
   // PNG level 1, because image noise does not compress.
-  return Encode(encoding.jpeg ? ".jpg" : ".png", bgr,
-                {cv::IMWRITE_PNG_COMPRESSION, 1, cv::IMWRITE_JPEG_QUALITY, encoding.jpeg_quality});
+  return EncodeWithOpenCv(
+      encoding.jpeg ? ".jpg" : ".png", bgr,
+      {cv::IMWRITE_PNG_COMPRESSION, 1, cv::IMWRITE_JPEG_QUALITY, encoding.jpeg_quality});
 }
 
 std::string EncodeDepth(RenderedImage* image) {
@@ -36,7 +32,7 @@ std::string EncodeDepth(RenderedImage* image) {
   cv::Mat raw;
   depth.convertTo(raw, CV_16U, kRenderedDepthScale);  // rounds, and saturates at 13.1 m
   // Quantised depth compresses: level 6 saves a fifth of level 1.
-  return Encode(".png", raw, {cv::IMWRITE_PNG_COMPRESSION, 6});
+  return EncodeWithOpenCv(".png", raw, {cv::IMWRITE_PNG_COMPRESSION, 6});
 }
 
 EncodedFrame RenderFrame(const SyntheticSequence& sequence, const ColorEncoding& encoding,

@@ -12,7 +12,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "msc_vo/datasets/clipped_depth_search.h"
-#include "msc_vo/datasets/image_file.h"
+#include "msc_vo/image_files/image_file.h"
 #include "msc_vo/text/files.h"
 
 namespace msc_vo {

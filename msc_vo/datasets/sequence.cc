@@ -19,12 +19,12 @@ namespace {
 
 // Ordered from the most specific layout to the most general one: the first layout that recognises a
 // folder reads it.
-constexpr const SequenceFormat* kFormats[] = {&kSevenScenesFormat, &kReplicaFormat,
-                                              &kScanNetFormat,     &kIclNuimFormat,
-                                              &kTumFormat,         &kRgbDepthFormat};
+constexpr const SequenceFormat* kSequenceFormats[] = {&kSevenScenesFormat, &kReplicaFormat,
+                                                      &kScanNetFormat,     &kIclNuimFormat,
+                                                      &kTumFormat,         &kRgbDepthFormat};
 
 const SequenceFormat* Recognise(const std::string& directory) {
-  for (const SequenceFormat* format : kFormats) {
+  for (const SequenceFormat* format : kSequenceFormats) {
     if (format->recognises(directory)) return format;
   }
   return nullptr;
@@ -32,7 +32,7 @@ const SequenceFormat* Recognise(const std::string& directory) {
 
 [[noreturn]] void FailUnrecognised(const std::string& directory) {
   std::string message = directory + ": no RGB-D sequence found here. Known layouts:";
-  for (const SequenceFormat* format : kFormats) {
+  for (const SequenceFormat* format : kSequenceFormats) {
     message += std::string("\n  ") + format->name + ": " + format->description;
   }
   // Giving the parent folder of a sequence is the most frequent mistake.
@@ -52,7 +52,7 @@ const SequenceFormat* Recognise(const std::string& directory) {
 
 const SequenceFormat& FormatByName(const std::string& name) {
   std::string names;
-  for (const SequenceFormat* format : kFormats) {
+  for (const SequenceFormat* format : kSequenceFormats) {
     if (name == format->name) return *format;
     names += std::string(", ") + format->name;
   }
@@ -69,7 +69,7 @@ std::string WithoutTrailingSlash(const std::string& directory) {
 
 std::vector<std::string> SequenceFormatNames() {
   std::vector<std::string> names;
-  for (const SequenceFormat* format : kFormats) names.push_back(format->name);
+  for (const SequenceFormat* format : kSequenceFormats) names.push_back(format->name);
   return names;
 }
 

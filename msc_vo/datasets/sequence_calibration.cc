@@ -12,7 +12,7 @@
 #include "msc_vo/datasets/camera_file.h"
 #include "msc_vo/datasets/camera_preset.h"
 #include "msc_vo/datasets/image_container.h"
-#include "msc_vo/datasets/image_file.h"
+#include "msc_vo/image_files/image_file.h"
 
 namespace msc_vo {
 

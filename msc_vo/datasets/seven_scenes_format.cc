@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string>
 
-#include "msc_vo/datasets/image_file.h"
+#include "msc_vo/image_files/image_file.h"
 #include "msc_vo/datasets/image_folder.h"
 #include "msc_vo/datasets/name_pairing.h"
 #include "msc_vo/datasets/pose_matrix.h"

@@ -17,7 +17,7 @@ namespace msc_vo {
 
 namespace {
 
-constexpr std::array<TrajectoryFormat, 3> kFormats = {
+constexpr std::array<TrajectoryFormat, 3> kTrajectoryFormats = {
     TrajectoryFormat::kTum, TrajectoryFormat::kKitti, TrajectoryFormat::kEuroc};
 constexpr size_t kRowsFields = 12, kMatrixFields = 16;  // of a 4x4 matrix
 
@@ -131,12 +131,12 @@ const char* ToString(TrajectoryFormat format) {
 
 std::vector<std::string> TrajectoryFormatNames() {
   std::vector<std::string> names;
-  for (const TrajectoryFormat format : kFormats) names.emplace_back(ToString(format));
+  for (const TrajectoryFormat format : kTrajectoryFormats) names.emplace_back(ToString(format));
   return names;
 }
 
 std::optional<TrajectoryFormat> TrajectoryFormatFromName(const std::string& name) {
-  for (const TrajectoryFormat format : kFormats) {
+  for (const TrajectoryFormat format : kTrajectoryFormats) {
     if (name == ToString(format)) return format;
   }
   return std::nullopt;

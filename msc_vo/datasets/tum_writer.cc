@@ -11,6 +11,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "msc_vo/datasets/camera_file.h"
+#include "msc_vo/image_files/opencv_codecs.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
 
@@ -41,12 +42,11 @@ cv::Mat ToRawDepth(const cv::Mat& metres, double depth_scale) {
 }
 
 std::string EncodePng(const cv::Mat& image, const std::string& name) {
-  std::vector<uchar> bytes;
   // Level 1, because the camera does not wait.
-  if (image.empty() || !cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_COMPRESSION, 1})) {
-    throw std::runtime_error(name + ": cannot be encoded as PNG");
-  }
-  return {bytes.begin(), bytes.end()};
+  std::string bytes;
+  if (!image.empty()) bytes = EncodeWithOpenCv(".png", image, {cv::IMWRITE_PNG_COMPRESSION, 1});
+  if (bytes.empty()) throw std::runtime_error(name + ": cannot be encoded as PNG");
+  return bytes;
 }
 
 const char* ExtensionOf(const StoredImage& image) {

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <utility>
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "msc_vo/image_files/jpeg_image.h"
 #include "msc_vo/results/tracked_features.h"
 
 namespace msc_vo {
@@ -24,9 +24,7 @@ std::string EncodeThumbnail(const cv::Mat& gray) {
     const cv::Rect covered(0, 0, size.width * factor, std::min(gray.rows, size.height * factor));
     cv::resize(gray(covered), small, size, 0.0, 0.0, cv::INTER_AREA);
   }
-  std::vector<uchar> bytes;
-  cv::imencode(".jpg", small, bytes, {cv::IMWRITE_JPEG_QUALITY, kQuality});
-  return {bytes.begin(), bytes.end()};
+  return EncodeJpeg(small, kQuality);
 }
 
 FrameViewCollector::FrameViewCollector(int num_frames, const LensDistortion& distortion,

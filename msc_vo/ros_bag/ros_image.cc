@@ -11,7 +11,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "msc_vo/datasets/image_file.h"
+#include "msc_vo/image_files/image_file.h"
 
 namespace msc_vo {
 

@@ -10,7 +10,7 @@
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
-#include "msc_vo/datasets/image_file.h"
+#include "msc_vo/image_files/image_file.h"
 #include "msc_vo/datasets/rgbd_decoder.h"
 #include "msc_vo/datasets/sequence.h"
 #include "msc_vo/datasets/sequence_calibration.h"

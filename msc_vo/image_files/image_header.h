@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "msc_vo/datasets/image_file.h"
+#include "msc_vo/image_files/image_file.h"
 
 namespace msc_vo {
 

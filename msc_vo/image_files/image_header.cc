@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/datasets/image_header.h"
+#include "msc_vo/image_files/image_header.h"
 
 #include <cstdint>
 #include <cstdlib>

@@ -6,11 +6,14 @@
 #include <memory>
 
 #include "apps/fusion/surface_fusion.h"
+#include "apps/video/video_file.h"
 
 namespace msc_vo {
 
-/// Loads the module of surface fusion and returns a fusion of it. Throws std::runtime_error with
-/// the fix if the module is not installed.
+// Each loads a module, so that only the runs that need it have its libraries in memory, and throws
+// std::runtime_error with the fix if the module is not installed.
+
 std::unique_ptr<SurfaceFusion> LoadSurfaceFusion(const SurfaceFusionOptions& options);
+std::unique_ptr<VideoFile> LoadVideoFile();
 
 }  // namespace msc_vo

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/image_files/image_file.h"
+
+#include <optional>
+#include <stdexcept>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "msc_vo/image_files/image_header.h"
+#include "msc_vo/image_files/jpeg_image.h"
+#include "msc_vo/image_files/opencv_codecs.h"
+#include "msc_vo/image_files/png_image.h"
+#include "msc_vo/text/files.h"
+
+namespace msc_vo {
+
+namespace {
+
+// Decodes the kinds of images that nearly all sequences have; empty for others.
+cv::Mat DecodeCommonKind(const std::string& bytes, int mode) {
+  if (mode == cv::IMREAD_UNCHANGED) {
+    const cv::Mat image = DecodePng(bytes);
+    return image.empty() ? DecodeJpeg(bytes, JpegChannels::kStored) : image;
+  }
+  if (mode == (cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION)) {
+    return DecodeJpeg(bytes, JpegChannels::kGray);
+  }
+  return {};
+}
+
+}  // namespace
+
+cv::Mat DecodeImage(const std::string& bytes, int mode) {
+  const std::optional<ImageSize> size = SizeInHeader(bytes);
+  if (!size || !IsPlausibleSize(*size, bytes.size())) return {};
+  const cv::Mat image = DecodeCommonKind(bytes, mode);
+  return image.empty() ? DecodeWithOpenCv(bytes, mode) : image;
+}
+
+cv::Mat ReadImageFile(const std::string& path) {
+  return DecodeImage(ReadFile(path, kMaxImageBytes), cv::IMREAD_UNCHANGED);
+}
+
+ImageSize ReadImageSize(const std::string& path) {
+  const cv::Mat image = ReadImageFile(path);
+  if (image.empty()) {
+    throw std::runtime_error(path + ": cannot be read as an image; restore the file");
+  }
+  return {image.cols, image.rows};
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/image_files/jpeg_image.h"
+
+#include <memory>
+#include <stdexcept>
+#include <type_traits>
+
+#include <turbojpeg.h>
+
+namespace msc_vo {
+
+namespace {
+
+struct DestroyTurboJpeg {
+  void operator()(tjhandle handle) const { tjDestroy(handle); }
+};
+using TurboJpeg = std::unique_ptr<std::remove_pointer_t<tjhandle>, DestroyTurboJpeg>;
+
+}  // namespace
+
+cv::Mat DecodeJpeg(const std::string& bytes, JpegChannels channels) {
+  const auto* const data = reinterpret_cast<const unsigned char*>(bytes.data());
+  const TurboJpeg decoder(tjInitDecompress());
+  int width, height, subsampling, colors;
+  if (decoder == nullptr || tjDecompressHeader3(decoder.get(), data, bytes.size(), &width, &height,
+                                                &subsampling, &colors) != 0) {
+    return {};
+  }
+  if (colors == TJCS_CMYK || colors == TJCS_YCCK) return {};
+  const bool is_gray = channels == JpegChannels::kGray || colors == TJCS_GRAY;
+  cv::Mat image(height, width, is_gray ? CV_8UC1 : CV_8UC3);
+  if (tjDecompress2(decoder.get(), data, bytes.size(), image.data, width,
+                    static_cast<int>(image.step), height, is_gray ? TJPF_GRAY : TJPF_BGR, 0) != 0) {
+    return {};
+  }
+  return image;
+}
+
+std::string EncodeJpeg(const cv::Mat& gray, int quality) {
+  const TurboJpeg encoder(tjInitCompress());
+  unsigned char* data = nullptr;
+  unsigned long num_bytes = 0;
+  const int failure = tjCompress2(encoder.get(), gray.data, gray.cols, static_cast<int>(gray.step),
+                                  gray.rows, TJPF_GRAY, &data, &num_bytes, TJSAMP_GRAY, quality, 0);
+  const std::unique_ptr<unsigned char, decltype(&tjFree)> owner(data, &tjFree);
+  if (failure != 0) throw std::runtime_error("JPEG: " + std::string(tjGetErrorStr2(encoder.get())));
+  return {data, data + num_bytes};
+}
+
+}  // namespace msc_vo
