@@ -36,7 +36,10 @@ namespace msc_vo {
 class BinaryWriter {
  public:
   /// `journal` takes the shared objects and must outlive the writer.
-  explicit BinaryWriter(ObjectJournal* journal) : journal_(journal) {}
+  /// `num_bytes`: memory to begin with.
+  explicit BinaryWriter(ObjectJournal* journal, size_t num_bytes = 0) : journal_(journal) {
+    bytes_.reserve(num_bytes);
+  }
 
   /// Writes the values one after the other.
   template <typename... Values>

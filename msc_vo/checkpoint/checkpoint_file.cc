@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "msc_vo/text/files.h"
@@ -17,28 +18,30 @@ namespace {
 
 constexpr char kMagic[8] = {'m', 's', 'c', '_', 'v', 'o', ' ', 's'};
 // Increase it with every change of what is saved.
-constexpr uint64_t kFormat = 16;
+constexpr uint64_t kFormat = 17;
 constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 40;
 
 struct Header {
   char magic[8] = {};
   uint64_t format = 0;
-  uint64_t num_bytes = 0;  // behind the header
+  uint64_t num_bytes = 0;  // of the contents
   uint64_t checksum = 0;   // of these
 };
 static_assert(sizeof(Header) == 32, "written as it is in memory");
 
-// What is behind the header.
+// What is between the header and the state.
 struct Contents {
   std::string description;
-  std::string state;
   int32_t journal = 0;
   uint64_t journal_bytes = 0;
   uint64_t journal_checksum = 0;
+  uint64_t state_bytes = 0;
+  uint64_t state_checksum = 0;
 
   template <typename Archive>
   void Serialize(Archive& archive) {
-    archive.Fields(*this, description, state, journal, journal_bytes, journal_checksum);
+    archive.Fields(*this, description, journal, journal_bytes, journal_checksum, state_bytes,
+                   state_checksum);
   }
 };
 
@@ -51,33 +54,48 @@ std::string Counts(std::uintmax_t present, std::uintmax_t expected) {
   return std::to_string(present) + " of " + std::to_string(expected) + " bytes";
 }
 
-// Returns what is behind the header of state.bin.
-std::string CheckedContents(const std::string& path, const std::string& bytes) {
+// Tests that the bytes behind the first `begin` are of this number and checksum.
+void CheckBytes(const std::string& path, const std::string& bytes, size_t begin, uint64_t num_bytes,
+                uint64_t checksum) {
+  const std::string_view rest = std::string_view(bytes).substr(begin);
+  if (rest.size() < num_bytes) {
+    Fail(path, "is truncated: it has " + Counts(rest.size(), num_bytes));
+  }
+  if (Checksum(rest.substr(0, num_bytes)) != checksum) {
+    Fail(path, "is damaged: its checksum is wrong");
+  }
+}
+
+// Reads state.bin and removes all but the state from `bytes`.
+Contents TakeContents(const std::string& path, std::string* bytes) {
   Header header;
-  if (bytes.size() < sizeof(header)) Fail(path, "is truncated");
-  std::memcpy(&header, bytes.data(), sizeof(header));
+  if (bytes->size() < sizeof(header)) Fail(path, "is truncated");
+  std::memcpy(&header, bytes->data(), sizeof(header));
   if (std::memcmp(header.magic, kMagic, sizeof(kMagic)) != 0) Fail(path, "is not a checkpoint");
   if (header.format != kFormat) {
     Fail(path, "has format " + std::to_string(header.format) + ", and this program reads format " +
                    std::to_string(kFormat) + ": it is of another version of msc_vo");
   }
-  std::string contents = bytes.substr(sizeof(header));
-  if (contents.size() < header.num_bytes) {
-    Fail(path, "is truncated: it has " + Counts(contents.size(), header.num_bytes));
-  }
-  if (contents.size() > header.num_bytes || Checksum(contents) != header.checksum) {
-    Fail(path, "is damaged: its checksum is wrong");
-  }
+  CheckBytes(path, *bytes, sizeof(header), header.num_bytes, header.checksum);
+  Contents contents;
+  ObjectJournal none;
+  BinaryReader reader(std::string_view(*bytes).substr(sizeof(header), header.num_bytes), &none);
+  reader(contents);
+  reader.Finish();
+  const size_t state_begin = sizeof(header) + header.num_bytes;
+  CheckBytes(path, *bytes, state_begin, contents.state_bytes, contents.state_checksum);
+  if (bytes->size() - state_begin != contents.state_bytes) Fail(path, "is damaged: it is too long");
+  bytes->erase(0, state_begin);
   return contents;
 }
 
-std::string WithHeader(const std::string& contents) {
+std::string HeaderOf(const std::string& contents) {
   Header header;
   std::memcpy(header.magic, kMagic, sizeof(kMagic));
   header.format = kFormat;
   header.num_bytes = contents.size();
   header.checksum = Checksum(contents);
-  return std::string(reinterpret_cast<const char*>(&header), sizeof(header)) + contents;
+  return {reinterpret_cast<const char*>(&header), sizeof(header)};
 }
 
 // The journal as it was when the checkpoint was written; later objects are cut off.
@@ -93,6 +111,10 @@ std::string CheckedJournal(const std::string& path, const Contents& contents) {
     Fail(path, "is damaged: its checksum is wrong");
   }
   return bytes;
+}
+
+ObjectJournal::Sink SinkTo(const std::shared_ptr<GrowingBinary>& file) {
+  return [file](uint64_t offset, std::string_view bytes) { file->Write(offset, bytes); };
 }
 
 // Number of a journal by its name; 0 if the file is none.
@@ -123,17 +145,15 @@ CheckpointFile CheckpointFile::Open(const std::string& folder) {
   const std::string path = file.path();
   const std::string problem = FileProblem(path, kMaxBytes);
   if (!problem.empty()) Fail(path, problem);
-  Contents contents;
-  const std::string bytes = CheckedContents(path, ReadFile(path, kMaxBytes));
-  ObjectJournal none;
-  BinaryReader reader(bytes, &none);
-  reader(contents);
-  reader.Finish();
+  std::string bytes = ReadFile(path, kMaxBytes);
+  Contents contents = TakeContents(path, &bytes);
   file.number_ = contents.journal;
-  file.journal_ =
-      std::make_unique<ObjectJournal>(CheckedJournal(file.JournalPath(file.number_), contents));
+  const std::string journal_path = file.JournalPath(file.number_);
+  std::string journal = CheckedJournal(journal_path, contents);
+  file.journal_file_ = std::make_shared<GrowingBinary>(journal_path);
+  file.journal_ = std::make_unique<ObjectJournal>(std::move(journal), SinkTo(file.journal_file_));
   file.description_ = std::move(contents.description);
-  file.state_ = std::move(contents.state);
+  file.state_ = std::move(bytes);
   return file;
 }
 
@@ -159,15 +179,14 @@ void CheckpointFile::ReadState(const std::function<void(BinaryReader&)>& read) {
     Fail(path(), error.what());
   }
   std::string().swap(state_);
-  journal_file_ = std::make_unique<GrowingBinary>(JournalPath(number_));
 }
 
 void CheckpointFile::BeginJournal() {
   int last = number_;
   for (const std::string& entry : ListFolder(folder_)) last = std::max(last, JournalNumber(entry));
-  auto file = std::make_unique<GrowingBinary>(JournalPath(last + 1));
+  auto file = std::make_shared<GrowingBinary>(JournalPath(last + 1));
   number_ = last + 1;
-  journal_ = std::make_unique<ObjectJournal>();
+  journal_ = std::make_unique<ObjectJournal>(SinkTo(file));
   journal_file_ = std::move(file);
 }
 
@@ -192,18 +211,21 @@ void CheckpointFile::SaveUnsafely(const std::function<void(BinaryWriter&)>& writ
   BinaryWriter description(journal_.get());
   write_description(description);
   contents.description = description.bytes();
-  BinaryWriter state(journal_.get());
+  BinaryWriter state(journal_.get(), num_state_bytes_);
   if (!write_state(state)) return;
-  contents.state = state.bytes();
+  num_state_bytes_ = state.bytes().size() + state.bytes().size() / 8;  // of the next, likely
   journal_->Keep(state.objects());
   contents.journal = number_;
   contents.journal_bytes = journal_->size();
   contents.journal_checksum = journal_->checksum();
+  contents.state_bytes = state.bytes().size();
+  contents.state_checksum = Checksum(state.bytes());
 
-  journal_file_->Write(journal_->written(), journal_->pending());
+  journal_->Flush();
+  journal_file_->Sync();
   BinaryWriter file(journal_.get());
   file(contents);
-  ReplaceFileOnDisk(path(), WithHeader(file.bytes()));
+  ReplaceFileOnDisk(path(), {HeaderOf(file.bytes()), file.bytes(), state.bytes()});
   journal_->SetWritten();
   RemoveJournals(number_);
 }
@@ -211,13 +233,14 @@ void CheckpointFile::SaveUnsafely(const std::function<void(BinaryWriter&)>& writ
 void CheckpointFile::RemoveRemains() {
   if (!Exists(folder_)) return Remove();
   if (!journal_file_) return;
+  // The next checkpoint begins another journal: some objects of this one may not be in the file.
+  const std::shared_ptr<GrowingBinary> file = std::move(journal_file_);
   if (journal_->written() == 0) {  // the checkpoint on the disk has another journal
-    journal_file_.reset();
     std::remove(JournalPath(number_).c_str());
     return;
   }
   try {
-    journal_file_->Write(journal_->written(), "");
+    file->Write(journal_->written(), "");
   } catch (const std::exception&) {
     // The remains only take space.
   }

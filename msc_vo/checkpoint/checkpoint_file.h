@@ -16,7 +16,8 @@ namespace msc_vo {
 
 /// The checkpoint of a run in a folder: `state.bin`, which each checkpoint replaces, and
 /// `objects-<number>.bin`, the journal of immutable objects that it refers to. Both are versioned
-/// and have checksums. A checkpoint is whole or absent: the old one is valid until the new one is
+/// and have checksums. Objects go to the journal as they are written, so that a checkpoint takes
+/// little memory. A checkpoint is whole or absent: the old one is valid until the new one is
 /// complete on the disk.
 class CheckpointFile {
  public:
@@ -58,7 +59,8 @@ class CheckpointFile {
   std::string folder_;
   int number_ = 0;  // of the journal; 0: none
   std::unique_ptr<ObjectJournal> journal_;
-  std::unique_ptr<GrowingBinary> journal_file_;
+  std::shared_ptr<GrowingBinary> journal_file_;
+  size_t num_state_bytes_ = 0;  // to reserve
   std::string description_;
   std::string state_;
 };

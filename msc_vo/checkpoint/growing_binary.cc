@@ -43,13 +43,22 @@ void GrowingBinary::Write(uint64_t offset, std::string_view bytes) {
     bytes.remove_prefix(static_cast<size_t>(written));
     offset += static_cast<uint64_t>(written);
   }
+}
+
+void GrowingBinary::Sync() {
   if (fdatasync(descriptor_) != 0) Fail("written");
 }
 
-void ReplaceFileOnDisk(const std::string& path, std::string_view bytes) {
+void ReplaceFileOnDisk(const std::string& path, const std::vector<std::string_view>& parts) {
   const std::string partial = path + ".partial";
   try {
-    GrowingBinary(partial).Write(0, bytes);
+    GrowingBinary file(partial);
+    uint64_t offset = 0;
+    for (const std::string_view part : parts) {
+      file.Write(offset, part);
+      offset += part.size();
+    }
+    file.Sync();
     if (std::rename(partial.c_str(), path.c_str()) != 0) {
       throw std::runtime_error(path + ": cannot be written: " + LastError());
     }

@@ -21,8 +21,12 @@ uint64_t PaddedSize(uint64_t size) { return (size + kAlignment - 1) / kAlignment
 
 }  // namespace
 
-ObjectJournal::ObjectJournal(std::string bytes)
-    : written_(bytes.size()), written_checksum_(Checksum(bytes)), loaded_bytes_(std::move(bytes)) {}
+ObjectJournal::ObjectJournal(std::string bytes, Sink sink)
+    : num_written_(bytes.size()),
+      sink_(std::move(sink)),
+      num_given_(bytes.size()),
+      given_checksum_(Checksum(bytes)),
+      loaded_bytes_(std::move(bytes)) {}
 
 ObjectId ObjectJournal::Find(const void* object) const {
   const auto id = ids_.find(object);
@@ -38,6 +42,8 @@ ObjectId ObjectJournal::Append(std::shared_ptr<const void> object, const std::st
   pending_.append(PaddedSize(num_bytes) - num_bytes, '\0');
   ids_[object.get()] = id;
   objects_[id] = {std::move(object), size() - id, children};
+  constexpr size_t kMaxPending = size_t{1} << 20;
+  if (sink_ && pending_.size() > kMaxPending) Flush();
   return id;
 }
 
@@ -63,11 +69,11 @@ void ObjectJournal::Keep(const std::vector<ObjectId>& roots) {
   }
 }
 
-void ObjectJournal::SetWritten() {
-  written_checksum_ = checksum();
-  written_ = size();
-  // A new journal begins with the whole map: its memory must not remain.
-  std::string().swap(pending_);
+void ObjectJournal::Flush() {
+  sink_(num_given_, pending_);
+  given_checksum_ = checksum();
+  num_given_ = size();
+  pending_.clear();
 }
 
 std::shared_ptr<void> ObjectJournal::FindLoaded(ObjectId id, const std::type_info& type) const {

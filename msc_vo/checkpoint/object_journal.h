@@ -11,6 +11,7 @@
 #include <string_view>
 #include <typeindex>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "msc_vo/checkpoint/checksum.h"
@@ -26,9 +27,14 @@ constexpr ObjectId kNoObject = ~ObjectId{0};
 /// address and keeps it alive while the last checkpoint refers to it.
 class ObjectJournal {
  public:
+  /// Takes bytes that follow those it got before; may throw.
+  using Sink = std::function<void(uint64_t offset, std::string_view bytes)>;
+
   ObjectJournal() = default;
+  /// A journal whose pending bytes go to `sink` now and then instead of growing.
+  explicit ObjectJournal(Sink sink) : sink_(std::move(sink)) {}
   /// A journal read from a file, to be continued.
-  explicit ObjectJournal(std::string bytes);
+  explicit ObjectJournal(std::string bytes, Sink sink = nullptr);
 
   // Writing.
 
@@ -42,14 +48,18 @@ class ObjectJournal {
   /// Bytes of the objects that Keep() kept.
   uint64_t num_kept_bytes() const { return num_kept_bytes_; }
 
-  /// Bytes of the journal: the written ones, and those that are to be appended to them.
-  uint64_t size() const { return written_ + pending_.size(); }
-  uint64_t written() const { return written_; }
+  /// Bytes of the journal.
+  uint64_t size() const { return num_given_ + pending_.size(); }
+  /// Checksum of all of them.
+  uint64_t checksum() const { return Checksum(pending_, given_checksum_); }
+  /// The bytes that the sink has not got; all without a sink.
   const std::string& pending() const { return pending_; }
-  /// Checksum of all bytes, the pending ones included.
-  uint64_t checksum() const { return Checksum(pending_, written_checksum_); }
-  /// The pending bytes have been written.
-  void SetWritten();
+  /// Gives them to the sink.
+  void Flush();
+  /// The journal is part of a checkpoint that is complete.
+  void SetWritten() { num_written_ = size(); }
+  /// Bytes that are part of one.
+  uint64_t written() const { return num_written_; }
 
   // Reading. All throw std::runtime_error if the bytes are not those of a journal.
 
@@ -76,8 +86,10 @@ class ObjectJournal {
   std::unordered_map<const void*, ObjectId> ids_;
   std::map<ObjectId, Object> objects_;
   uint64_t num_kept_bytes_ = 0;
-  uint64_t written_ = 0;
-  uint64_t written_checksum_ = kEmptyChecksum;
+  uint64_t num_written_ = 0;
+  Sink sink_;
+  uint64_t num_given_ = 0;
+  uint64_t given_checksum_ = kEmptyChecksum;
   std::string pending_;
   std::string loaded_bytes_;
   std::unordered_map<ObjectId, LoadedObject> loaded_;

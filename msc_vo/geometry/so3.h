@@ -19,11 +19,19 @@ inline Eigen::Matrix3d Skew(const Eigen::Vector3d& v) {
 
 /// Rotation by |w| radians about w / |w|.
 inline Eigen::Quaterniond ExpSO3(const Eigen::Vector3d& w) {
-  const double half = 0.5 * w.norm();
-  // sin(h)/h near zero: two Taylor terms are accurate to double precision below 1e-4.
-  const double sinc = half < 1e-4 ? 1.0 - half * half / 6.0 : std::sin(half) / half;
+  const double square = 0.25 * w.squaredNorm();  // of the half angle
+  double cosine, sinc;                           // of the half angle
+  if (square < 1e-3) {  // the first terms of the Taylor series are accurate to double precision
+    cosine =
+        1.0 - square / 2.0 * (1.0 - square / 12.0 * (1.0 - square / 30.0 * (1.0 - square / 56.0)));
+    sinc = 1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0));
+  } else {
+    const double half = std::sqrt(square);
+    cosine = std::cos(half);
+    sinc = std::sin(half) / half;
+  }
   const Eigen::Vector3d v = 0.5 * sinc * w;
-  return Eigen::Quaterniond(std::cos(half), v.x(), v.y(), v.z()).normalized();
+  return Eigen::Quaterniond(cosine, v.x(), v.y(), v.z()).normalized();
 }
 
 /// Rotation vector w (radians, |w| <= pi) with ExpSO3(w) == q up to sign.

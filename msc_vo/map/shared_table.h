@@ -63,6 +63,30 @@ class SharedTable {
     size_t entry_ = 0;
   };
 
+  /// Finds values by ascending id: each search goes on where the last one ended.
+  class Cursor {
+   public:
+    explicit Cursor(const SharedTable& table) : blocks_(table.blocks_) {}
+
+    /// Returns nullptr if there is none. `id` must not be lower than that of the last search.
+    const T* Find(int64_t id) {
+      while (block_ + 1 < blocks_.size() && blocks_[block_ + 1].first <= id) {
+        ++block_;
+        entry_ = 0;
+      }
+      if (block_ == blocks_.size()) return nullptr;
+      const Entries& entries = *blocks_[block_].entries;
+      while (entry_ < entries.size() && entries[entry_].first < id) ++entry_;
+      const bool found = entry_ < entries.size() && entries[entry_].first == id;
+      return found ? &entries[entry_].second : nullptr;
+    }
+
+   private:
+    const std::vector<Block>& blocks_;
+    size_t block_ = 0;
+    size_t entry_ = 0;
+  };
+
   SharedTable() = default;
   SharedTable(SharedTable&&) noexcept = default;
   SharedTable& operator=(SharedTable&&) noexcept = default;

@@ -32,11 +32,10 @@ std::vector<const L*> ObservedLandmarks(const Map& map, const std::set<KeyframeI
     }
   }
   std::vector<const L*> landmarks;
-  ids.VisitAll([&](LandmarkId id) {
-    const L* landmark = map.Find<L>(id);
-    if (static_cast<int>(landmark->observations.size()) < min_observations) return;
-    landmarks.push_back(landmark);
-    observers->Add(*landmark);
+  ids.VisitAll([&](const L& landmark) {
+    if (static_cast<int>(landmark.observations.size()) < min_observations) return;
+    landmarks.push_back(&landmark);
+    observers->Add(landmark);
   });
   return landmarks;
 }

@@ -18,8 +18,8 @@ void AddObservations(const KeyframePacket& packet, KeyframeId keyframe, Map* map
     for (const auto& match : OfKind<L>(packet.matches)) {
       map->Observe<L>(match.id, keyframe, match.feature);
     }
-    for (const auto& [id, count] : packet.counts.Of<L>()) {
-      map->CountTracking<L>(id, count.num_visible, count.num_found);
+    for (const TrackingCount& count : packet.counts.Of<L>()) {
+      map->CountTracking<L>(count.id, count.num_visible, count.num_found);
     }
   });
 }

@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "msc_vo/geometry/rigid3.h"
 #include "msc_vo/map/landmark.h"
 #include "msc_vo/map/last_tracked_pose.h"
+#include "msc_vo/mapping/tracking_counts.h"
 #include "msc_vo/matching/frame_matches.h"
 #include "msc_vo/matching/revisit.h"
 #include "msc_vo/self_calibration/recent_pairs.h"
@@ -21,17 +21,6 @@
 #include "msc_vo/structure/axis_evidence.h"
 
 namespace msc_vo {
-
-/// Number of frames in which a landmark was predicted to be visible, and in which it was matched.
-struct TrackingCount {
-  int num_visible = 0;
-  int num_found = 0;
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, num_visible, num_found);
-  }
-};
 
 /// Plain data that tracking passes to the mapper for each keyframe; shared parts are immutable.
 struct KeyframePacket {
@@ -60,7 +49,7 @@ struct KeyframePacket {
   std::shared_ptr<const RecordedImage> image;
   std::vector<CalibrationImage> calibration_images;
   /// Over all frames since the last packet, including this one.
-  PerKind<std::map<LandmarkId, TrackingCount>> counts;
+  PerKind<TrackingCounts> counts;
 
   template <typename Archive>
   void Serialize(Archive& archive) {

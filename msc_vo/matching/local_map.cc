@@ -79,7 +79,7 @@ LocalMap SelectLocalMap(const Map& map, const Frame& frame, const Rigid3& cam_fr
         if (id != kNoId) landmarks.Insert(id);
       }
     }
-    landmarks.VisitAll([&](LandmarkId id) { AddIfVisible(view, *map.Find<L>(id), &local); });
+    landmarks.VisitAll([&](const L& landmark) { AddIfVisible(view, landmark, &local); });
   });
   return local;
 }

@@ -4,6 +4,7 @@
 #include "msc_vo/matching/point_matcher.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -20,6 +21,18 @@ constexpr int kNoDistance = 257;  // more than the 256 bits of a descriptor
 // rounded, and a corner may be detected on either side.
 constexpr int kMaxLevelDifference = 1;
 
+// The size of a pixel of a pyramid level, in pixels of the image; levels beyond those of the table
+// have no features.
+double PixelSize(int level) {
+  constexpr int kNumLevels = 32;
+  static const std::array<double, kNumLevels> sizes = [] {
+    std::array<double, kNumLevels> powers;
+    for (int i = 0; i < kNumLevels; ++i) powers[i] = std::pow(kPyramidScale, i);
+    return powers;
+  }();
+  return sizes[std::clamp(level, 0, kNumLevels - 1)];
+}
+
 struct Best {
   int feature = -1;
   int distance = kNoDistance;
@@ -35,7 +48,7 @@ Best FindBest(const PointMatcherOptions& options, const Frame& frame,
               const PointCandidate& candidate, double radius, const std::vector<bool>& taken) {
   Best best;
   Best second;
-  const double scaled_radius = radius * std::pow(kPyramidScale, candidate.level);
+  const double scaled_radius = radius * PixelSize(candidate.level);
   frame.grid.VisitNear(frame.points, candidate.pixel, scaled_radius, [&](int index) {
     const PointFeature& feature = frame.points[index];
     if (std::abs(feature.level - candidate.level) > kMaxLevelDifference) return;

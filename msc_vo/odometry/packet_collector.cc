@@ -7,25 +7,12 @@
 
 namespace msc_vo {
 
-namespace {
-
-// The ids are sorted, so that each insertion point is close to the previous one.
-void CountVisible(const std::vector<LandmarkId>& ids, std::map<LandmarkId, TrackingCount>* counts) {
-  auto place = counts->begin();
-  for (const LandmarkId id : ids) {
-    place = counts->try_emplace(place, id);
-    ++place->second.num_visible;
-  }
-}
-
-}  // namespace
-
 void PacketCollector::Add(const TrackedFrame& tracked) {
   ForEachLandmarkKind([&](auto kind) {
     using L = typename decltype(kind)::Landmark;
-    std::map<LandmarkId, TrackingCount>& counts = packet_.counts.Of<L>();
-    CountVisible(tracked.visible.Of<L>(), &counts);
-    for (const auto& match : OfKind<L>(tracked.matches)) ++counts[match.id].num_found;
+    TrackingCounts& counts = packet_.counts.Of<L>();
+    counts.AddVisible(tracked.visible.Of<L>());
+    for (const auto& match : OfKind<L>(tracked.matches)) counts.AddFound(match.id);
   });
   if (tracked.previous_velocity) packet_.last_velocity = tracked.previous_velocity;
 }

@@ -13,15 +13,18 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-std::vector<int64_t> Ids(const IdSet& set) {
+using Table = SharedTable<int64_t, 4>;
+
+// The values, which are the ids.
+std::vector<int64_t> Ids(const IdSet<Table>& set) {
   std::vector<int64_t> ids;
-  set.VisitAll([&](int64_t id) { ids.push_back(id); });
+  set.VisitAll([&](int64_t value) { ids.push_back(value); });
   return ids;
 }
 
 TEST(IdSetTest, VisitsEveryIdOnceInAscendingOrder) {
-  SharedTable<int, 4> table;
-  for (const int64_t id : {7, 8, 70, 71, 134, 135, 1000}) table.Append(id, 0);
+  Table table;
+  for (const int64_t id : {7, 8, 70, 71, 134, 135, 1000}) table.Append(id, id);
   IdSet set(table);
   EXPECT_THAT(Ids(set), IsEmpty());
   // First and last id, both sides of word boundaries, and a duplicate.
@@ -30,7 +33,8 @@ TEST(IdSetTest, VisitsEveryIdOnceInAscendingOrder) {
 }
 
 TEST(IdSetTest, IsEmptyForAnEmptyTable) {
-  EXPECT_THAT(Ids(IdSet(SharedTable<int, 4>())), IsEmpty());
+  const Table table;
+  EXPECT_THAT(Ids(IdSet(table)), IsEmpty());
 }
 
 }  // namespace

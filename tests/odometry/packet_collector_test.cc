@@ -3,10 +3,19 @@
 
 #include "msc_vo/odometry/packet_collector.h"
 
+#include <array>
+#include <iterator>
+
 #include <gtest/gtest.h>
 
 namespace msc_vo {
 namespace {
+
+// The counts of the only landmark that has some.
+TrackingCount OnlyCount(const TrackingCounts& counts) {
+  EXPECT_EQ(std::distance(counts.begin(), counts.end()), 1);
+  return *counts.begin();
+}
 
 // A frame that shows point 3, which it is matched with, and line 5.
 TrackedFrame MakeFrame() {
@@ -28,17 +37,35 @@ TEST(PacketCollector, CountsTheLandmarksOfAllFramesSinceTheLastKeyframe) {
   tracked.keyframe.id = 7;
   const KeyframePacket packet = packets.Take(tracked, 0.25);
   EXPECT_EQ(packet.id, 7);
-  EXPECT_EQ(packet.counts.points.at(3).num_visible, 2);
-  EXPECT_EQ(packet.counts.points.at(3).num_found, 2);
-  EXPECT_EQ(packet.counts.lines.at(5).num_visible, 2);
-  EXPECT_EQ(packet.counts.lines.at(5).num_found, 0);
+  const TrackingCount point = OnlyCount(packet.counts.points);
+  EXPECT_EQ(point.id, 3);
+  EXPECT_EQ(point.num_visible, 2);
+  EXPECT_EQ(point.num_found, 2);
+  const TrackingCount line = OnlyCount(packet.counts.lines);
+  EXPECT_EQ(line.id, 5);
+  EXPECT_EQ(line.num_visible, 2);
+  EXPECT_EQ(line.num_found, 0);
   EXPECT_TRUE(packet.last_velocity.has_value());
   EXPECT_EQ(packet.frame_interval, 0.25);
 
   packets.Add(tracked);
   const KeyframePacket next = packets.Take(tracked, std::nullopt);
-  EXPECT_EQ(next.counts.points.at(3).num_visible, 1);
+  EXPECT_EQ(OnlyCount(next.counts.points).num_visible, 1);
   EXPECT_FALSE(next.last_velocity.has_value());
+}
+
+TEST(TrackingCounts, AreMergedById) {
+  TrackingCounts counts;
+  counts.AddVisible({2, 5, 9});
+  counts.AddVisible({1, 5, 7, 12});
+  for (const LandmarkId id : {5, 3, 12, 12}) counts.AddFound(id);
+  std::vector<std::array<int64_t, 3>> found;
+  for (const TrackingCount& count : counts) {
+    found.push_back({count.id, count.num_visible, count.num_found});
+  }
+  const std::vector<std::array<int64_t, 3>> expected = {{1, 1, 0}, {2, 1, 0}, {3, 0, 1}, {5, 2, 1},
+                                                        {7, 1, 0}, {9, 1, 0}, {12, 1, 2}};
+  EXPECT_EQ(found, expected);
 }
 
 TEST(PacketCollector, TellsTheMapperWhichMapsBegin) {

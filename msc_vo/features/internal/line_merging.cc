@@ -65,6 +65,19 @@ struct CommonLine {
   double Across(const Vector2d& x) const { return DistanceToLine(center, direction, x); }
 };
 
+// The segments behind the i-th one that are parallel to it, up to kMaxAngle.
+void FindParallel(const std::vector<Vector2d>& directions, size_t i,
+                  std::vector<size_t>* parallel) {
+  static const double min_cosine = std::cos(kMaxAngle);
+  parallel->resize(directions.size());
+  size_t count = 0;
+  for (size_t j = i + 1; j < directions.size(); ++j) {  // without branches
+    (*parallel)[count] = j;
+    count += directions[i].dot(directions[j]) >= min_cosine ? 1 : 0;
+  }
+  parallel->resize(count);
+}
+
 std::optional<LineSegment2> Merge(const LineSegment2& a, const LineSegment2& b) {
   const CommonLine line(a, b);
   for (const Vector2d& x :
@@ -86,17 +99,18 @@ std::vector<LineSegment2> MergeCollinear(std::vector<LineSegment2> segments) {
   std::sort(segments.begin(), segments.end(), Longer);
   std::vector<Vector2d> directions;
   for (const LineSegment2& segment : segments) directions.push_back(segment.Direction());
-  const double min_cosine = std::cos(kMaxAngle);
+  std::vector<size_t> parallel;
   std::vector<char> taken(segments.size(), 0);
   std::vector<LineSegment2> merged;
   for (size_t i = 0; i < segments.size(); ++i) {
     if (taken[i]) continue;
+    FindParallel(directions, i, &parallel);
     LineSegment2 line = segments[i];
     Vector2d direction = directions[i];
     for (bool grown = true; grown;) {
       grown = false;
-      for (size_t j = i + 1; j < segments.size(); ++j) {
-        if (taken[j] || directions[i].dot(directions[j]) < min_cosine) continue;
+      for (const size_t j : parallel) {
+        if (taken[j]) continue;
         // Quick rejection: if all end points are close to the common line, the midpoint is close to
         // this one.
         const double across = DistanceToLine(line.start, direction, segments[j].Midpoint());
