@@ -162,6 +162,14 @@ double MapInterval(const ReplayArguments& arguments, bool realtime) {
   return realtime ? std::numeric_limits<double>::infinity() : arguments.checkpoint_interval;
 }
 
+// Takes the frames that a resumed run had when it was interrupted.
+void ContinueWith(std::vector<FrameResult> frames, const RunMap& map, RunFiles* files,
+                  ReplayViews* views) {
+  views->Continue(frames);
+  for (FrameResult& frame : frames) frame = map.Reported(frame);
+  files->Continue(frames);
+}
+
 // Runs the odometry. `resumed`: null for a new run.
 int Run(const ReplayArguments& arguments, const Configuration& configuration, Resumed* resumed) {
   std::vector<std::string> check_warnings;
@@ -201,9 +209,8 @@ int Run(const ReplayArguments& arguments, const Configuration& configuration, Re
   callbacks.tracking = [&](const TrackedImage& tracked) { views.Show(tracked); };
   callbacks.checkpoints = checkpoints.get();
   if (resumed != nullptr) {
-    callbacks.resume = [&](std::vector<FrameResult> frames) {
-      for (FrameResult& frame : frames) frame = map.Reported(frame);
-      files.Continue(frames);
+    callbacks.resume = [&](const std::vector<FrameResult>& frames) {
+      ContinueWith(frames, map, &files, &views);
     };
   }
   SequenceRun run = RunSequence(decoder, configuration, arguments.run, interrupt, callbacks);

@@ -131,6 +131,10 @@ void ReplayViews::Show(const TrackedImage& tracked) {
   if (run_) run_->Show(tracked);
 }
 
+void ReplayViews::Continue(const std::vector<FrameResult>& frames) {
+  if (run_) run_->Continue(frames);
+}
+
 void ReplayViews::Add(const FrameResult& frame, const std::function<bool()>& is_interrupted) {
   if (run_) run_->Add(frame, is_interrupted);
 }

@@ -44,6 +44,8 @@ class ReplayViews {
   ReplayViews(const ViewArguments& arguments, const RgbdDecoder& decoder,
               const Configuration& configuration, int max_frames);
 
+  /// Begins with the frames of a run that is resumed.
+  void Continue(const std::vector<FrameResult>& frames);
   /// Takes a tracked frame.
   void Show(const TrackedImage& tracked);
   /// Takes the result of every frame, also of those without an image; waits where a viewer has

@@ -45,37 +45,83 @@ bool LiveRun::WantsView() const {
   return view_is_wanted_;
 }
 
+void LiveRun::Continue(const std::vector<FrameResult>& frames) {
+  for (const FrameResult& frame : frames) Append(frame);
+}
+
 void LiveRun::Show(const TrackedImage& tracked) {
+  Remember(tracked.tracked);
   if (!IsWatched(kWatchedWithin)) return;
-  const Clock::time_point now = Clock::now();
   const bool is_paused = pacing_.is_paused();  // then every step is shown
-  if (is_paused || (WantsView() && now - view_time_ >= kViewInterval)) {
-    auto view = std::make_shared<FrameView>();
-    view->frame = static_cast<int>(tracked.result.id);
-    view->jpeg = EncodeThumbnail(tracked.image.gray);
-    view->features = TrackedFeatures(tracked, options_.distortion);
-    view_time_ = now;
-    const std::lock_guard<std::mutex> lock(mutex_);
-    view_ = std::move(view);
-    view_is_wanted_ = false;
-  }
+  if (is_paused || (WantsView() && Clock::now() - view_time_ >= kViewInterval)) ShowView(tracked);
   const bool is_new = &tracked.map != shown_map_ || tracked.map.newest_keyframe != shown_keyframe_;
-  if (is_new && (is_paused || now - map_time_ >= kMapInterval)) {
-    auto map = std::make_shared<ReportMap>(ViewedMap(tracked.map));
-    map_time_ = now;
-    shown_map_ = &tracked.map;
-    shown_keyframe_ = tracked.map.newest_keyframe;
-    const std::lock_guard<std::mutex> lock(mutex_);
-    map_ = std::move(map);
-    ++map_version_;
+  if (is_new && (is_paused || Clock::now() - map_time_ >= kMapInterval)) ShowMap(tracked);
+}
+
+// A frame that begins a map is the keyframe that it is relative to.
+void LiveRun::Remember(const TrackedFrame& tracked) {
+  pose_ = {tracked.reference, tracked.cam_from_reference};
+  if (pose_.reference == kNoId && tracked.keyframe.is_due()) {
+    pose_ = {tracked.keyframe.id, Rigid3()};
   }
 }
 
-void LiveRun::Add(const FrameResult& frame, const std::function<bool()>& is_interrupted) {
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    frames_.push_back(MakeReportFrame(frame));
+void LiveRun::ShowView(const TrackedImage& tracked) {
+  auto view = std::make_shared<FrameView>();
+  view->frame = static_cast<int>(tracked.result.id);
+  view->jpeg = EncodeThumbnail(tracked.image.gray);
+  view->features = TrackedFeatures(tracked, options_.distortion);
+  view_time_ = Clock::now();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  view_ = std::move(view);
+  view_is_wanted_ = false;
+}
+
+void LiveRun::ShowMap(const TrackedImage& tracked) {
+  auto map = std::make_shared<ReportMap>(ViewedMap(tracked.map));
+  const bool has_moved =
+      tracked.map.num_loops != num_shown_loops_ || tracked.map.world != shown_world_;
+  std::vector<ReportFrame> moved;
+  if (has_moved) moved = MovedFrames(tracked.map);
+  map_time_ = Clock::now();
+  shown_map_ = &tracked.map;
+  shown_keyframe_ = tracked.map.newest_keyframe;
+  num_shown_loops_ = tracked.map.num_loops;
+  shown_world_ = tracked.map.world;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  map_ = std::move(map);
+  ++map_version_;
+  loops_.clear();
+  for (const Loop& loop : tracked.loops) loops_.push_back({loop.frame, loop.reference});
+  if (!has_moved) return;
+  frames_ = std::move(moved);
+  moved_version_ = map_version_;
+}
+
+std::vector<ReportFrame> LiveRun::MovedFrames(const MapSnapshot& snapshot) const {
+  std::vector<ReportFrame> frames = frames_;  // which this thread alone changes
+  for (size_t i = 0; i < frames.size(); ++i) {
+    const ReferencedPose& pose = poses_[i];
+    const Map* map = pose.reference != kNoId ? snapshot.FindMapOf(pose.reference) : nullptr;
+    if (map == nullptr) continue;
+    const Rigid3 cam_from_world = pose.cam_from_reference * map->CamFromWorld(pose.reference);
+    frames[i].world_from_cam = cam_from_world.Inverse();
+    if (map == &snapshot.map) frames[i].submap = snapshot.world;
   }
+  return frames;
+}
+
+void LiveRun::Append(const FrameResult& frame) {
+  if (frame.segment != kNoSegment && first_segment_ == kNoSegment) first_segment_ = frame.segment;
+  const bool is_found = frame.world != kNoSegment && frame.world < first_segment_;
+  poses_.push_back(pose_);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (is_found && !found_frame_) found_frame_ = static_cast<int>(frames_.size());
+  frames_.push_back(MakeReportFrame(frame));
+}
+
+void LiveRun::Add(const FrameResult& frame, const std::function<bool()>& is_interrupted) {
+  Append(frame);
   if (!options_.can_pause) return;
   pacing_.Wait(frame.timestamp, [&] {
     if (pacing_.is_paused() && !IsWatched(options_.vanished)) pacing_.Resume();
@@ -123,6 +169,11 @@ std::string LiveRun::Update(int num_frames, int map_version, int view) {
     if (count > 0) update.start = frames_.front().timestamp;
     update.map_version = map_version_;
     if (map_version != map_version_) map = map_;
+    if (map_version < moved_version_) {
+      update.moved_frames.assign(frames_.begin(), frames_.begin() + update.first_frame);
+    }
+    update.loops = loops_;
+    update.found_frame = found_frame_;
     // A viewer does not get the image of a frame before the frame itself.
     if (view_ && view_->frame != view && view_->frame < end) {
       frame_view = view_;

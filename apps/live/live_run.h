@@ -13,6 +13,7 @@
 
 #include "apps/live/pacing.h"
 #include "msc_vo/camera/lens_distortion.h"
+#include "msc_vo/odometry/pose_correction.h"
 #include "msc_vo/odometry/tracking_observer.h"
 #include "msc_vo/report/frame_view.h"
 #include "msc_vo/report/report.h"
@@ -37,7 +38,10 @@ class LiveRun {
 
   // Thread of the run:
 
-  /// Takes features, image and map of a frame. Does next to nothing while nobody watches.
+  /// Begins with the frames of a run that is resumed, which stay where they are.
+  void Continue(const std::vector<FrameResult>& frames);
+  /// Takes features, image and map of a frame, before Add(). Does next to nothing while nobody
+  /// watches. After a loop or a join of two maps, the frames so far move with the map.
   void Show(const TrackedImage& tracked);
   /// Adds a frame, then waits for its turn. Returns early if `is_interrupted` returns true.
   void Add(const FrameResult& frame, const std::function<bool()>& is_interrupted);
@@ -65,6 +69,13 @@ class LiveRun {
 
   bool IsWatched(Clock::duration within) const;
   bool WantsView() const;
+  // Keeps what the next frame is relative to.
+  void Remember(const TrackedFrame& tracked);
+  void Append(const FrameResult& frame);
+  void ShowView(const TrackedImage& tracked);
+  void ShowMap(const TrackedImage& tracked);
+  // The frames so far as their keyframes now stand.
+  std::vector<ReportFrame> MovedFrames(const MapSnapshot& snapshot) const;
 
   LiveRunOptions options_;
   std::string id_;
@@ -74,6 +85,9 @@ class LiveRun {
   std::vector<ReportFrame> frames_;
   std::shared_ptr<const ReportMap> map_;
   int map_version_ = -1;
+  int moved_version_ = -1;  // of the map with which the frames moved for the last time
+  std::vector<ReportLoop> loops_;
+  std::optional<int> found_frame_;
   std::shared_ptr<const FrameView> view_;
   bool view_is_wanted_ = true;  // nobody waits for another one before the last was taken
   std::shared_ptr<const std::string> report_;
@@ -84,6 +98,13 @@ class LiveRun {
   const MapSnapshot* shown_map_ = nullptr;  // only compared, never read
   KeyframeId shown_keyframe_ = kNoId;
   Clock::time_point map_time_, view_time_;
+  // Of the frames; of those that are not tracked, that of the frame before. Without a reference, a
+  // frame stays where it is.
+  std::vector<ReferencedPose> poses_;
+  ReferencedPose pose_;             // of the next frame
+  int first_segment_ = kNoSegment;  // of the run; the worlds of earlier runs have smaller numbers
+  int num_shown_loops_ = 0;
+  int shown_world_ = kNoSegment;
 };
 
 }  // namespace msc_vo

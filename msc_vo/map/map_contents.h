@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "msc_vo/geometry/rigid3.h"
 #include "msc_vo/map/map.h"
 #include "msc_vo/map/noise_scale.h"
 #include "msc_vo/map/pose_graph_edge.h"
@@ -25,6 +26,13 @@ struct MapSession {
   void Serialize(Archive& archive) {
     archive.Fields(*this, first_keyframe, name);
   }
+};
+
+/// The keyframes of one session in one world.
+struct SessionPath {
+  std::string name;                    ///< of the session
+  int world = 0;                       ///< number of the world that the poses refer to
+  std::vector<Rigid3> world_from_cam;  ///< in order of time
 };
 
 /// A map in a world of its own, as it outlives a run.

@@ -4,6 +4,7 @@
 #include "msc_vo/odometry/map_result.h"
 
 #include <map>
+#include <utility>
 
 namespace msc_vo {
 
@@ -13,6 +14,13 @@ MapAxes MakeAxes(const SceneAxes& scene) {
   const AxesEstimator& axes = scene.estimator();
   return {axes.state(), axes.num_refinements(), axes.world_from_axes(), axes.sigma(),
           scene.deviation().scale()};
+}
+
+// Index of the session that added the keyframe; the sessions are in order of their keyframes.
+size_t SessionOf(KeyframeId keyframe, const std::vector<MapSession>& sessions) {
+  size_t index = 0;
+  while (index + 1 < sessions.size() && sessions[index + 1].first_keyframe <= keyframe) ++index;
+  return index;
 }
 
 }  // namespace
@@ -38,6 +46,24 @@ void AddMap(const Mapper& mapper, SubMapId submap_id, OdometryResult* result) {
                              line.viewing_direction});
   }
   result->axes = MakeAxes(submap->axes);
+}
+
+void AddEarlierSessions(const Atlas& atlas, const std::vector<MapSession>& sessions,
+                        OdometryResult* result) {
+  const int num_worlds = static_cast<int>(result->segments.size());
+  for (int world = 0; world < num_worlds && result->segments[world].is_earlier_session; ++world) {
+    const SubMap* submap = atlas.Find(world);
+    if (submap == nullptr) continue;  // joined with an older one
+    std::vector<SessionPath> paths;
+    for (const MapSession& session : sessions) paths.push_back({session.name, world, {}});
+    for (const auto& [id, keyframe] : submap->map.keyframes()) {
+      if (!submap->map.IsOfEarlierSession(id)) continue;
+      paths[SessionOf(id, sessions)].world_from_cam.push_back(keyframe.cam_from_world.Inverse());
+    }
+    for (SessionPath& path : paths) {
+      if (!path.world_from_cam.empty()) result->earlier_sessions.push_back(std::move(path));
+    }
+  }
 }
 
 }  // namespace msc_vo

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <vector>
+
 #include "msc_vo/mapping/mapper.h"
 #include "msc_vo/odometry/odometry.h"
 
@@ -11,5 +13,9 @@ namespace msc_vo {
 /// Adds keyframes, landmarks and axes of a submap to the result; nothing if there is no such
 /// submap.
 void AddMap(const Mapper& mapper, SubMapId submap_id, OdometryResult* result);
+
+/// Adds the keyframes of the earlier `sessions` to the result, whose segments are known, by world.
+void AddEarlierSessions(const Atlas& atlas, const std::vector<MapSession>& sessions,
+                        OdometryResult* result);
 
 }  // namespace msc_vo

@@ -285,7 +285,7 @@ void Odometry::State::ProcessImage(const RgbdImage& given, FirstError* error) {
   if (!tracking_observer) return;
   const FrameResult result = results.back();
   error->Catch([&] {
-    tracking_observer({image.recorded, *extracted.frame, tracked, *map, result});
+    tracking_observer({image.recorded, *extracted.frame, tracked, *map, result, loops.loops()});
   });
 }
 
@@ -384,6 +384,7 @@ OdometryResult Odometry::Finish() {
   state_->segments.PropagateCovariances(&result.frames);
   result.map_world = LargestWorld(result.segments);
   AddMap(state_->mapper, state_->segments.SubMapOf(result.map_world), &result);
+  AddEarlierSessions(state_->mapper.atlas(), state_->sessions.earlier(), &result);
   result.noise_scale = state_->mapper.noise().scale();
   result.depth_sensor = state_->images.depth_sensor();
   state_->calibration.Describe(&result);

@@ -69,6 +69,8 @@ struct OdometryResult {
   /// poses.
   int map_world = 0;
   std::vector<TimedPose> keyframes;  ///< of this run, in order of time
+  /// Keyframes of earlier sessions (Odometry::SetMap()), by world, then by session.
+  std::vector<SessionPath> earlier_sessions;
   std::vector<MapPoint> points;
   std::vector<MapLine> lines;
   MapAxes axes;

@@ -21,6 +21,7 @@ class SessionLog {
                  SegmentLog* segments, Mapper* mapper);
   /// Whether there are earlier sessions.
   bool has_earlier() const { return !earlier_.empty(); }
+  const std::vector<MapSession>& earlier() const { return earlier_; }
   /// All maps, to be saved; the present session has the name `session`.
   MapContents Share(const std::string& session, Mapper* mapper) const;
 

@@ -4,10 +4,12 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "msc_vo/frame/frame.h"
 #include "msc_vo/map/snapshot.h"
 #include "msc_vo/odometry/frame_result.h"
+#include "msc_vo/odometry/loop_log.h"
 #include "msc_vo/sensor/rgbd_image.h"
 #include "msc_vo/tracking/tracked_frame.h"
 
@@ -22,6 +24,7 @@ struct TrackedImage {
   const TrackedFrame& tracked;
   const MapSnapshot& map;  ///< the map that the frame was tracked in
   const FrameResult& result;
+  const std::vector<Loop>& loops;  ///< closed so far, in order of time
 };
 
 /// Called with every frame that Odometry::Process() has tracked, in the thread of the caller.

@@ -132,16 +132,37 @@ std::vector<LegendEntry> LineLegend(const ReportData& data) {
   return legend;
 }
 
+// Entries for the paths: as many for the estimate as it has submaps.
+std::vector<LegendEntry> PathLegend(const ReportData& data) {
+  std::vector<LegendEntry> legend;
+  const std::vector<SubMapStart> submaps = FindSubMaps(data.frames);
+  for (size_t i = 0; i < submaps.size(); ++i) {
+    const std::string name = "submap " + std::to_string(submaps[i].number) + ", from frame " +
+                             std::to_string(submaps[i].first_frame);
+    legend.push_back({Swatch::kCurve, SubMapClass(i), submaps.size() > 1 ? name : "estimate"});
+  }
+  if (!data.odometry.empty()) {
+    legend.push_back({Swatch::kCurve, "curve odometry", "before loops were closed"});
+  }
+  if (!data.ground_truth.empty()) {
+    legend.push_back({Swatch::kCurve, "curve ground-truth", "ground truth"});
+  }
+  for (size_t i = 0; i < data.map.sessions.size(); ++i) {
+    const std::string& name = data.map.sessions[i].name;
+    legend.push_back({Swatch::kCurve, SessionClass(i),
+                      name.empty() ? "earlier sessions" : "earlier session: " + name});
+  }
+  if (data.found_frame) legend.push_back({Swatch::kFill, "found", DescribeFound(data)});
+  return legend;
+}
+
 void Append(const std::vector<LegendEntry>& more, std::vector<LegendEntry>* legend) {
   legend->insert(legend->end(), more.begin(), more.end());
 }
 
 void WriteTrajectory(const ReportData& data, std::ostream& out) {
   const TrajectoryView view = ChooseTrajectoryView(data);
-  std::vector<LegendEntry> legend = {{Swatch::kCurve, "curve estimate", "estimate"}};
-  if (!data.ground_truth.empty()) {
-    legend.push_back({Swatch::kCurve, "curve ground-truth", "ground truth"});
-  }
+  std::vector<LegendEntry> legend = PathLegend(data);
   for (const LegendEntry& status : StatusLegend(data)) {
     if (status.label == ToString(ReportStatus::kPredicted) ||
         status.label == ToString(ReportStatus::kLost)) {

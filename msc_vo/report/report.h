@@ -21,11 +21,17 @@ namespace msc_vo {
 /// Tracking status of a frame, from best to worst.
 enum class ReportStatus { kTracked, kWeak, kDropped, kUnreadable, kPredicted, kLost };
 
+/// ReportFrame::submap of a frame without a pose.
+constexpr int kNoSubMapNumber = -1;
+
 /// One frame of the run.
 struct ReportFrame {
   double timestamp = 0.0;  ///< seconds
   ReportStatus status = ReportStatus::kTracked;
   bool is_keyframe = false;
+  /// Number of the submap whose world the pose refers to; kNoSubMapNumber: there is no pose. Poses
+  /// of different submaps have an unknown transform between them.
+  int submap = 0;
   Rigid3 world_from_cam;                 ///< metres; aligned to the ground truth, if there is one
   std::optional<double> position_error;  ///< metres; nullopt without ground truth at this time
   /// Largest standard deviation of the pose, degrees and metres; nullopt without an estimate.
@@ -51,11 +57,18 @@ struct ReportLine {
   int axis = -1;         ///< Manhattan axis 0, 1, 2 that it is parallel to; -1: none
 };
 
+/// Keyframes of an earlier run that built the map.
+struct ReportSession {
+  std::string name;                        ///< empty: several runs, or unknown
+  std::vector<Eigen::Vector3d> positions;  ///< metres, camera centres in world, in order of time
+};
+
 /// The map as it is drawn, in the same frame as the poses.
 struct ReportMap {
   std::vector<ReportLine> lines;
   std::vector<Eigen::Vector3d> points;                ///< metres, world
   std::optional<Eigen::Quaterniond> world_from_axes;  ///< Manhattan axes, if there are any
+  std::vector<ReportSession> sessions;                ///< earlier runs, in order; may be empty
 };
 
 /// A closed loop: two frames show the same place.
@@ -91,8 +104,13 @@ struct ReportData {
   std::vector<ReportFrame> frames;                  ///< in order of time
   std::vector<ReportGroundTruthPose> ground_truth;  ///< in order of time; may be empty
   std::vector<ReportLoop> loops;                    ///< in order of time; may be empty
-  ReportMap map;                                    ///< at the end of the run
-  std::vector<FrameView> views;                     ///< by ascending frame; may be empty
+  /// Camera centres before any loop was closed, metres, one per frame or none at all; not finite
+  /// where the path has a gap.
+  std::vector<Eigen::Vector3d> odometry;
+  /// Index of the first frame that was found in the map of earlier runs; nullopt: none.
+  std::optional<int> found_frame;
+  ReportMap map;                 ///< at the end of the run
+  std::vector<FrameView> views;  ///< by ascending frame; may be empty
   PinholeCamera camera;
   /// Up direction of an upright camera: -y, because y points down, or y if fy is negative. The mean
   /// over all frames is the up direction of the views.

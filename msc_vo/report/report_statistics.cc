@@ -71,4 +71,15 @@ std::vector<NotTrackedSpan> FindNotTrackedSpans(const std::vector<ReportFrame>& 
   return spans;
 }
 
+std::vector<SubMapStart> FindSubMaps(const std::vector<ReportFrame>& frames) {
+  std::vector<SubMapStart> submaps;
+  for (size_t i = 0; i < frames.size(); ++i) {
+    const int number = frames[i].submap;
+    const auto is_same = [number](const SubMapStart& submap) { return submap.number == number; };
+    if (number == kNoSubMapNumber || std::any_of(submaps.begin(), submaps.end(), is_same)) continue;
+    submaps.push_back({number, static_cast<int>(i)});
+  }
+  return submaps;
+}
+
 }  // namespace msc_vo

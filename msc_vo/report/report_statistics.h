@@ -39,4 +39,13 @@ struct NotTrackedSpan {
 };
 std::vector<NotTrackedSpan> FindNotTrackedSpans(const std::vector<ReportFrame>& frames);
 
+/// A submap that poses refer to.
+struct SubMapStart {
+  int number = 0;       ///< ReportFrame::submap
+  int first_frame = 0;  ///< index of the first frame with a pose in it
+};
+
+/// The submaps that poses refer to, in order of their first frames.
+std::vector<SubMapStart> FindSubMaps(const std::vector<ReportFrame>& frames);
+
 }  // namespace msc_vo

@@ -26,6 +26,7 @@ constexpr size_t kMaxPoints = 50'000;
 // Positions of features are stored in eighths of a pixel (PIXEL_SCALE in web/frame_panel.js).
 constexpr float kPixelScale = 8.0F;
 constexpr uint8_t kNoAxis = 3;
+constexpr uint16_t kNoSubMap = std::numeric_limits<uint16_t>::max();
 
 uint16_t ToCount(int count) {
   return static_cast<uint16_t>(std::clamp<int>(count, 0, std::numeric_limits<uint16_t>::max()));
@@ -38,6 +39,16 @@ uint16_t ToSubpixel(float pixel) {
 
 void Append(const Eigen::Vector3d& x, std::vector<float>* values) {
   for (const double coordinate : x) values->push_back(static_cast<float>(coordinate));
+}
+
+void Append(const Rigid3& pose, std::vector<float>* values) {
+  Append(Eigen::Vector3d(pose.translation()), values);
+  const Eigen::Vector4d quaternion = pose.rotation().coeffs();
+  for (const double q : quaternion) values->push_back(static_cast<float>(q));
+}
+
+uint16_t ToSubMap(int number) {
+  return number >= 0 && number < kNoSubMap ? static_cast<uint16_t>(number) : kNoSubMap;
 }
 
 float ToFloat(const std::optional<double>& value) {
@@ -53,12 +64,11 @@ size_t StrideFor(size_t size, size_t max_size) {
 Json FramesToJson(const std::vector<ReportFrame>& frames, int first, double start) {
   std::vector<float> time, pose, sigma, error, stage_ms, tracking_ms, mapping_ms;
   std::vector<uint8_t> status, keyframe;
-  std::vector<uint16_t> counts;
+  std::vector<uint16_t> counts, submap;
   for (const ReportFrame& frame : frames) {
     time.push_back(static_cast<float>(frame.timestamp - start));
-    Append(frame.world_from_cam.translation(), &pose);
-    const Eigen::Vector4d quaternion = frame.world_from_cam.rotation().coeffs();
-    for (const double q : quaternion) pose.push_back(static_cast<float>(q));
+    Append(frame.world_from_cam, &pose);
+    submap.push_back(ToSubMap(frame.submap));
     status.push_back(static_cast<uint8_t>(frame.status));
     keyframe.push_back(frame.is_keyframe ? 1 : 0);
     for (const int count :
@@ -77,6 +87,7 @@ Json FramesToJson(const std::vector<ReportFrame>& frames, int first, double star
           {"pose", EncodeBase64(pose)},
           {"status", EncodeBase64(status)},
           {"keyframe", EncodeBase64(keyframe)},
+          {"submap", EncodeBase64(submap)},
           {"counts", EncodeBase64(counts)},
           {"sigma", EncodeBase64(sigma)},
           {"error", EncodeBase64(error)},
@@ -93,16 +104,36 @@ Json RotationToJson(const Eigen::Matrix3d& rotation) {
   return rows;
 }
 
-// Pairs of frame indices. Loops with a frame that is not in the report are left out.
-Json LoopsToJson(const ReportData& data) {
-  const int num_frames = static_cast<int>(data.frames.size());
-  Json loops = Json::array();
-  for (const ReportLoop& loop : data.loops) {
+// Pairs of frame indices. Loops with a frame that is not among the frames are left out.
+Json LoopsToJson(const std::vector<ReportLoop>& loops, int num_frames) {
+  Json json = Json::array();
+  for (const ReportLoop& loop : loops) {
     if (std::min(loop.frame, loop.reference) < 0) continue;
     if (std::max(loop.frame, loop.reference) >= num_frames) continue;
-    loops.push_back({loop.frame, loop.reference});
+    json.push_back({loop.frame, loop.reference});
   }
-  return loops;
+  return json;
+}
+
+Json SessionsToJson(const std::vector<ReportSession>& sessions) {
+  Json json = Json::array();
+  for (const ReportSession& session : sessions) {
+    std::vector<float> positions;
+    for (const Eigen::Vector3d& position : session.positions) Append(position, &positions);
+    json.push_back({{"name", session.name}, {"positions", EncodeBase64(positions)}});
+  }
+  return json;
+}
+
+// The poses of the first frames.
+Json PosesToJson(const std::vector<ReportFrame>& frames) {
+  std::vector<float> pose;
+  std::vector<uint16_t> submap;
+  for (const ReportFrame& frame : frames) {
+    Append(frame.world_from_cam, &pose);
+    submap.push_back(ToSubMap(frame.submap));
+  }
+  return {{"pose", EncodeBase64(pose)}, {"submap", EncodeBase64(submap)}};
 }
 
 Json MapToJson(const ReportMap& map) {
@@ -122,6 +153,7 @@ Json MapToJson(const ReportMap& map) {
   Json json = {{"lines", EncodeBase64(lines)},
                {"line_axes", EncodeBase64(axes)},
                {"points", EncodeBase64(points)}};
+  if (!map.sessions.empty()) json["sessions"] = SessionsToJson(map.sessions);
   if (map.world_from_axes) json["axes"] = RotationToJson(map.world_from_axes->toRotationMatrix());
   return json;
 }
@@ -190,7 +222,13 @@ std::string FormatRunJson(const ReportData& data) {
     if (pose.position.allFinite()) Append(pose.position, &truth);
   }
   json["ground_truth"] = EncodeBase64(truth);
-  json["loops"] = LoopsToJson(data);
+  json["loops"] = LoopsToJson(data.loops, static_cast<int>(data.frames.size()));
+  if (!data.odometry.empty()) {
+    std::vector<float> positions;
+    for (const Eigen::Vector3d& position : data.odometry) Append(position, &positions);
+    json["odometry"] = EncodeBase64(positions);
+  }
+  if (data.found_frame) json["found"] = *data.found_frame;
   json["map"] = MapToJson(data.map);
   json["views"] = Json::array();
   for (const FrameView& view : data.views) json["views"].push_back(ViewToJson(view));
@@ -221,7 +259,12 @@ std::string FormatRunUpdate(const RunUpdate& update) {
   if (!update.frames.empty()) {
     json["frames"] = FramesToJson(update.frames, update.first_frame, update.start);
   }
-  if (update.map != nullptr) json["map"] = MapToJson(*update.map);
+  if (!update.moved_frames.empty()) json["moved"] = PosesToJson(update.moved_frames);
+  if (update.map != nullptr) {
+    json["map"] = MapToJson(*update.map);
+    json["loops"] = LoopsToJson(update.loops, update.num_processed);
+    if (update.found_frame) json["found"] = *update.found_frame;
+  }
   if (update.view != nullptr) json["views"] = Json::array({ViewToJson(*update.view)});
   return Dump(json);
 }

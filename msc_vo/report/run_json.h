@@ -36,6 +36,12 @@ struct RunUpdate {
   const ReportMap* map = nullptr;   ///< null: the page has it
   const FrameView* view = nullptr;  ///< null: the page has it
   std::vector<ReportFrame> frames;
+  /// The first frames of the run, which the page has, if a loop or a join of two maps has moved
+  /// them since; else empty.
+  std::vector<ReportFrame> moved_frames;
+  // Sent with the map:
+  std::vector<ReportLoop> loops;   ///< so far
+  std::optional<int> found_frame;  ///< as ReportData::found_frame
 };
 
 /// The answer to a live page. Throws std::invalid_argument if the sizes of ReportFrame::stage_ms

@@ -36,6 +36,7 @@ ReportFrame MakeReportFrame(const FrameResult& frame) {
   row.timestamp = frame.timestamp;
   row.status = ToReportStatus(frame.status);
   row.is_keyframe = frame.is_keyframe;
+  row.submap = frame.world;
   row.world_from_cam = frame.cam_from_world.Inverse();
   if (frame.covariance) {
     const Eigen::Matrix<double, 6, 1> variance = frame.covariance->diagonal();

@@ -14,6 +14,7 @@
 #include "msc_vo/report/report.h"
 #include "msc_vo/results/calibrated_value.h"
 #include "msc_vo/results/report_frame.h"
+#include "msc_vo/results/report_paths.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/version.h"
 
@@ -151,7 +152,11 @@ std::vector<ReportNumber> MakeNumbers(const RunSummary& summary, const RunContex
                        "a new one begins when the map cannot be found again"});
   }
   if (!summary.loops.empty()) {
-    numbers.push_back({"Loops", DescribeLoops(summary), "the camera has returned to a place"});
+    numbers.push_back({"Loops", DescribeLoops(summary), DescribeLoopFrames(summary)});
+  }
+  if (summary.has_earlier_sessions) {
+    numbers.push_back({"Found", DescribeLocalization(summary),
+                       summary.localization ? "the first pose that is measured in that map" : ""});
   }
   if (!context.segment_errors.empty()) {
     numbers.push_back({"APE RMSE of segments", SegmentErrorText(context.segment_errors),
@@ -293,6 +298,7 @@ std::string FormatRunTable(const RunSummary& summary, const RunContext& context,
   if (!losses.empty()) table += Row("", "images without a pose: " + losses);
   if (summary.segments.size() > 1) table += Row("segments", DescribeSegments(summary));
   if (!summary.loops.empty()) table += Row("loops", DescribeLoops(summary));
+  if (summary.has_earlier_sessions) table += Row("found", DescribeLocalization(summary));
   table += Row("map", MapText(summary));
   table += Row("axes", AxesText(summary));
   table += StageRows(summary.stages);
@@ -336,7 +342,10 @@ std::string FormatReport(const OdometryResult& result, const RunSummary& summary
   data.frames = AlignedFrames(result, context.error);
   data.self_calibration = SelfCalibration(summary, context);
   for (const Loop& loop : result.loops) data.loops.push_back({loop.frame, loop.reference});
+  if (!result.loops.empty()) data.odometry = OdometryPath(result.frames, ground_truth_from_world);
+  if (summary.localization) data.found_frame = summary.localization->frame;
   data.map = FinalMap(result, ground_truth_from_world);
+  data.map.sessions = EarlierSessions(result, ground_truth_from_world);
   data.views = IndexedViews(result.frames, context.views);
   data.camera = context.calibration.camera;
   data.up_in_cam.y() = context.calibration.camera.fy < 0.0 ? 1.0 : -1.0;

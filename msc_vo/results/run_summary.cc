@@ -46,6 +46,21 @@ int WorldOf(const OdometryResult& result, int segment) {
                                                             : segment;
 }
 
+std::optional<Localization> FindLocalization(const OdometryResult& result) {
+  const std::optional<int> found = FirstLocalizedFrame(result);
+  if (!found) return std::nullopt;
+  const std::vector<FrameResult>& frames = result.frames;
+  Localization localization;
+  localization.frame = *found;
+  localization.seconds = frames[*found].timestamp - frames.front().timestamp;
+  for (int i = 1; i <= *found; ++i) {
+    localization.length += (frames[i].cam_from_odometry.OriginInSource() -
+                            frames[i - 1].cam_from_odometry.OriginInSource())
+                               .norm();
+  }
+  return localization;
+}
+
 int NumProcessed(const RunSummary& summary) {
   return summary.num_frames - summary.Count(TrackingStatus::kDropped) -
          summary.Count(TrackingStatus::kUnreadable);
@@ -73,6 +88,8 @@ RunSummary Summarize(const OdometryResult& result) {
   summary.stages.insert(std::prev(summary.stages.end()), mapping.begin(), mapping.end());
   summary.segments = result.segments;
   summary.loops = result.loops;
+  summary.has_earlier_sessions = NumEarlierWorlds(result) > 0;
+  summary.localization = FindLocalization(result);
   summary.map_world = result.map_world;
   summary.num_keyframes = static_cast<int>(result.keyframes.size());
   summary.num_points = static_cast<int>(result.points.size());
@@ -127,8 +144,34 @@ std::string DescribeLoops(const RunSummary& summary) {
     largest.translation = std::max(largest.translation, loop.translation);
     largest.rotation = std::max(largest.rotation, loop.rotation);
   }
-  return FormatText("%zu closed; corrected by up to %.1f mm and %.2f degrees", summary.loops.size(),
-                    1000.0 * largest.translation, RadiansToDegrees(largest.rotation));
+  const bool is_one = summary.loops.size() == 1;
+  return FormatText(
+      "%zu closed: the camera was back at %s, and %s%.1f mm and %.2f degrees of drift were removed",
+      summary.loops.size(), is_one ? "a known place" : "known places", is_one ? "" : "up to ",
+      1000.0 * largest.translation, RadiansToDegrees(largest.rotation));
+}
+
+std::string DescribeLoopFrames(const RunSummary& summary) {
+  constexpr size_t kMaxNamed = 3;
+  const size_t num_named = std::min(kMaxNamed, summary.loops.size());
+  std::string text;
+  for (size_t i = 0; i < num_named; ++i) {
+    const Loop& loop = summary.loops[i];
+    text += FormatText("%sframe %d shows the place of ", i > 0 ? ", " : "", loop.frame);
+    text += loop.reference < 0 ? "an earlier session" : FormatText("frame %d", loop.reference);
+  }
+  const size_t num_more = summary.loops.size() - num_named;
+  return num_more > 0 ? text + FormatText(", and %zu more", num_more) : text;
+}
+
+std::string DescribeLocalization(const RunSummary& summary) {
+  if (!summary.localization) return "not in the map of earlier sessions";
+  const Localization& found = *summary.localization;
+  return FormatText(
+      "in the map of earlier sessions, at frame %d of %d, after %.2f s and %.2f m (%.0f %% of the "
+      "images)",
+      found.frame, summary.num_frames, found.seconds, found.length,
+      100.0 * found.frame / std::max(summary.num_frames, 1));
 }
 
 std::string DescribeSegments(const RunSummary& summary) {

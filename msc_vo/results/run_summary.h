@@ -21,6 +21,13 @@
 
 namespace msc_vo {
 
+/// Where a run was found in the map of earlier sessions.
+struct Localization {
+  int frame = 0;         ///< index of the first frame in that world (FirstLocalizedFrame())
+  double seconds = 0.0;  ///< since the first frame
+  double length = 0.0;   ///< path of the camera so far by odometry, metres
+};
+
 /// Statistics of a run.
 struct RunSummary {
   int num_frames = 0;
@@ -33,9 +40,11 @@ struct RunSummary {
   int num_frames_with_dynamic_objects = 0;
   /// Stages of tracking, "tracking" as a whole, stages of mapping, "mapping" as a whole.
   std::vector<StageTimeStatistics> stages;
-  std::vector<Segment> segments;  ///< in order of time
-  std::vector<Loop> loops;        ///< in order of time
-  int map_world = 0;              ///< the world (Segment::world) of the map
+  std::vector<Segment> segments;             ///< in order of time
+  std::vector<Loop> loops;                   ///< in order of time
+  bool has_earlier_sessions = false;         ///< began with the map of earlier sessions
+  std::optional<Localization> localization;  ///< nullopt: the run was not found in that map
+  int map_world = 0;                         ///< the world (Segment::world) of the map
   int num_keyframes = 0;
   int num_points = 0;
   int num_lines = 0;
@@ -68,6 +77,10 @@ std::string DescribeLosses(const RunSummary& summary);
 
 /// The number of loops and the largest correction, one line.
 std::string DescribeLoops(const RunSummary& summary);
+/// The frames that closed loops, one line.
+std::string DescribeLoopFrames(const RunSummary& summary);
+/// When and where the run was found in the map of earlier sessions, one line.
+std::string DescribeLocalization(const RunSummary& summary);
 /// The number of segments, how many are joined, and how many are not in the map, one line.
 std::string DescribeSegments(const RunSummary& summary);
 

@@ -34,7 +34,7 @@ std::string NameAndSize(const std::string& path) {
   return fs::path(path).filename().string() + (error ? "?" : " " + std::to_string(size)) + "\n";
 }
 
-std::string FileIn(const std::string& directory, const char* name) {
+std::string ResultFile(const std::string& directory, const char* name) {
   return (fs::path(directory) / name).string();
 }
 
@@ -53,11 +53,11 @@ std::string Text(const Json& json, const char* key) {
 
 // The sequence whose results are in a folder; none if there are no results or they do not say it.
 std::optional<SequenceIdentity> ReadIdentity(const std::string& directory) {
-  if (const auto json = ReadJson(FileIn(directory, "sequence.json"))) {
+  if (const auto json = ReadJson(ResultFile(directory, "sequence.json"))) {
     return SequenceIdentity{Text(*json, "path"), Text(*json, "stamps"), Text(*json, "images")};
   }
   // Results of earlier versions.
-  const auto summary = ReadJson(FileIn(directory, "summary.json"));
+  const auto summary = ReadJson(ResultFile(directory, "summary.json"));
   if (!summary || !summary->contains("sequence") || !(*summary)["sequence"].is_object()) return {};
   return IdentifySequence(Text((*summary)["sequence"], "directory"));
 }
@@ -94,7 +94,7 @@ SequenceIdentity IdentifySequence(const SequenceIndex& index) {
 void WriteIdentity(const std::string& directory, const SequenceIdentity& sequence) {
   const Json json = {
       {"path", sequence.path}, {"stamps", sequence.stamps}, {"images", sequence.images}};
-  WriteFile(FileIn(directory, "sequence.json"),
+  WriteFile(ResultFile(directory, "sequence.json"),
             json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 

@@ -4,6 +4,7 @@
 #include "msc_vo/results/tracked_features.h"
 
 #include <optional>
+#include <utility>
 
 #include "msc_vo/structure/scene_axes.h"
 
@@ -51,6 +52,12 @@ ReportMap ViewedMap(const MapSnapshot& snapshot) {
     map.lines.push_back({line.segment, AxisIn(snapshot, line).value_or(-1)});
   }
   for (const auto& [id, point] : snapshot.map.points()) map.points.push_back(point.position);
+  ReportSession earlier;
+  for (const auto& [id, keyframe] : snapshot.map.keyframes()) {
+    if (!snapshot.map.IsOfEarlierSession(id)) break;  // ids ascend
+    earlier.positions.push_back(keyframe.cam_from_world.OriginInSource());
+  }
+  if (!earlier.positions.empty()) map.sessions.push_back(std::move(earlier));
   if (snapshot.axes) map.world_from_axes = snapshot.axes->world_from_axes;
   return map;
 }

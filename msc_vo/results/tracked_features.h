@@ -14,7 +14,7 @@ namespace msc_vo {
 /// image. Lines have the color of the Manhattan axes as known when the frame was tracked.
 ViewedFeatures TrackedFeatures(const TrackedImage& tracked, const LensDistortion& distortion);
 
-/// The map that a frame was tracked in.
+/// The map that a frame was tracked in. The keyframes of earlier runs are one session.
 ReportMap ViewedMap(const MapSnapshot& snapshot);
 
 }  // namespace msc_vo

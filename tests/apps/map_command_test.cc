@@ -23,6 +23,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 class MapCommandTest : public TemporaryFolder {
  protected:
@@ -169,6 +170,10 @@ TEST_F(MapCommandTest, LocalizesInAMapThatRemains) {
   const int first = Summary("today")["segments"][1]["joined"]["frame"];
   EXPECT_GT(first, 0);
   EXPECT_LT(first, 40);
+  const std::string report = ReadFile(Path("today/report.html"));
+  EXPECT_THAT(report, AllOf(HasSubstr("found in the map: frame " + std::to_string(first) + ","),
+                            HasSubstr("earlier session: room, "),
+                            HasSubstr("\"found\":" + std::to_string(first))));
   const std::vector<TimedPose> poses = ReadTrajectory(Path("today/trajectory.txt"));
   ASSERT_EQ(poses.size(), 60u);
   for (int i = 0; i < 60; ++i) EXPECT_EQ(poses[i].is_estimated, i >= first) << i;
@@ -184,6 +189,9 @@ TEST_F(MapCommandTest, FailsWhereTheMapIsNeverFound) {
   const CommandOutcome lost = Replay("corridor", "lost", {"--localize", Path("home.map")});
   EXPECT_EQ(lost.exit_code, 3);
   EXPECT_THAT(lost.output, Names("error:", Path("home.map"), "never found"));
+  EXPECT_THAT(ReadFile(Path("lost/report.html")),
+              AllOf(HasSubstr("not in the map of earlier sessions"),
+                    HasSubstr("earlier session: room, "), Not(HasSubstr("\"found\":"))));
   for (const TimedPose& pose : ReadTrajectory(Path("lost/trajectory.txt"))) {
     EXPECT_FALSE(pose.is_estimated);
   }

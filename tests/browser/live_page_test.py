@@ -106,6 +106,27 @@ class LivePageTest(unittest.TestCase):
                                          headers={"X-Msc-Vo": "control"})
         urllib.request.urlopen(request).close()
 
+    def test_moves_into_the_map_of_an_earlier_run(self):
+        home = str(pathlib.Path(self.folder.name) / "home.map")
+        subprocess.run([self.command, "replay", self.sequence, "--output", self.folder.name, "--quiet",
+                        "--map", home], check=True)
+        url = self.start("--localize", home)
+        self.control(url, "pause")
+        self.browser.driver.get(url)
+        self.browser.wait_for(lambda: self.count() > 0, what="a frame")
+        self.assertFalse(self.browser.find("#scene-label").is_displayed())
+        self.browser.script("""
+            const speed = document.getElementById("live-speed");
+            speed.value = "0.25"; speed.dispatchEvent(new Event("change"));""")
+        self.browser.click("#live-pause")
+        self.browser.wait_for(lambda: "found in the map" in self.browser.text("#scene-label"),
+                              what="the place in the map")
+        self.assertEqual(self.browser.text("#scene-legend").splitlines(),
+                         ["trajectory", "earlier sessions"])
+        self.control(url, "speed&value=0")
+        self.browser.wait_for(lambda: "APE RMSE" in self.browser.text("body"), what="the report")
+        self.assertEqual(self.run.wait(timeout=20), 0)
+
     def test_a_vanished_viewer_does_not_stop_the_run(self):
         url = self.start()
         self.control(url, "speed&value=1")  # four seconds, enough to open the page

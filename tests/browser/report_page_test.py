@@ -3,7 +3,11 @@
 
     report_page_test.py MSC_VO
 """
+import array
+import base64
+import json
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -85,6 +89,88 @@ class ReportPageTest(unittest.TestCase):
         self.browser.changed_pixels("scene-canvas")
         self.browser.press("8")
         self.assertEqual(self.browser.changed_pixels("scene-canvas"), 0)
+
+    def open_changed(self, change):
+        """Opens a copy of the report whose data block `change` has changed."""
+        html = self.report.read_text()
+        block = re.search(r'(<script type="application/json" id="run-data">)(.*?)</script>', html)
+        data = json.loads(block.group(2))
+        change(data)
+        page = self.report.with_name("changed.html")
+        page.write_text(html[:block.start(2)] + json.dumps(data) + html[block.end(2):])
+        self.browser.driver.get(page.as_uri())
+        self.browser.settle()
+
+    def legend(self):
+        return self.browser.text("#scene-legend").splitlines()
+
+    def pixels_of(self, color):
+        """Pixels of the 3-D view in about this color of the style sheet."""
+        self.browser.changed_pixels("scene-canvas")
+        return self.browser.script("""
+            const color = getComputedStyle(document.documentElement)
+                .getPropertyValue("--" + arguments[0]).trim();
+            const rgb = [1, 3, 5].map((at) => parseInt(color.slice(at, at + 2), 16));
+            const pixels = window.keptPixels["scene-canvas"];
+            let count = 0;
+            for (let i = 0; i < pixels.length; i += 4) {
+              if (pixels[i + 3] > 200 && rgb.every((c, k) => Math.abs(pixels[i + k] - c) < 12)) ++count;
+            }
+            return count;""", color)
+
+    def test_shows_what_loops_have_changed(self):
+        self.assertFalse(self.browser.find("#scene-legend").is_displayed())
+        for layer in ["loops", "before loops", "earlier sessions", "found"]:
+            self.assertFalse(self.browser.find(f"button[data-layer='{layer}']").is_displayed())
+
+        def close_a_loop(data):
+            pose = array.array("f", base64.b64decode(data["frames"]["pose"]))
+            path = [1.2 * x for i in range(0, len(pose), 7) for x in pose[i:i + 3]]
+            path[3:6] = [float("nan")] * 3
+            data["odometry"] = base64.b64encode(array.array("f", path)).decode()
+            data["loops"] = [[len(pose) // 7 - 1, 0]]
+
+        self.open_changed(close_a_loop)
+        self.assertEqual(self.legend(), ["trajectory", "before loops were closed",
+                                         "loop: two frames at one place"])
+        self.browser.changed_pixels("scene-canvas")
+        for layer in ["before loops", "loops"]:
+            self.browser.click(f"button[data-layer='{layer}']")
+            self.assertGreater(self.browser.changed_pixels("scene-canvas"), 20, layer)
+
+    def test_shows_submaps_in_colors(self):
+        def split(data):
+            submaps = array.array("H", base64.b64decode(data["frames"]["submap"]))
+            half = len(submaps) // 2
+            submaps = array.array("H", [65535] * 3 + [0] * (half - 3) + [2] * (len(submaps) - half))
+            data["frames"]["submap"] = base64.b64encode(submaps).decode()
+
+        self.assertEqual(self.pixels_of("submap-1"), 0)
+        self.open_changed(split)
+        half = (self.last_frame() + 1) // 2
+        self.assertEqual(self.legend(), ["submap 0, from frame 3", f"submap 2, from frame {half}"])
+        self.assertGreater(self.pixels_of("submap-1"), 15)
+
+    def test_shows_where_the_run_was_found_in_the_map(self):
+        def find(data):
+            pose = array.array("f", base64.b64decode(data["frames"]["pose"]))
+            path = [x + 0.1 for i in range(0, len(pose), 7) for x in pose[i:i + 3]]
+            positions = base64.b64encode(array.array("f", path)).decode()
+            data["map"]["sessions"] = [{"name": "yesterday <b>", "positions": positions},
+                                       {"name": "", "positions": positions}]
+            data["found"] = 5
+
+        self.open_changed(find)
+        self.assertEqual(self.legend(), ["trajectory", "earlier session: yesterday <b>",
+                                         "earlier sessions"])
+        label = self.browser.find("#scene-label")
+        self.assertTrue(label.is_displayed())
+        self.assertRegex(label.text, r"^found in the map: frame 5, \d\.\d\d s$")
+        self.browser.changed_pixels("scene-canvas")
+        for layer in ["earlier sessions", "found"]:
+            self.browser.click(f"button[data-layer='{layer}']")
+            self.assertGreater(self.browser.changed_pixels("scene-canvas"), 20, layer)
+        self.assertFalse(label.is_displayed())
 
     def test_views_differ(self):
         self.browser.changed_pixels("scene-canvas")

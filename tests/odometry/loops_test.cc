@@ -18,6 +18,7 @@ namespace {
 struct Walk {
   std::vector<FrameResult> live;
   OdometryResult result;
+  size_t num_observed_loops = 0;  // at the last image
 };
 
 class LoopsTest : public testing::Test {
@@ -37,6 +38,8 @@ class LoopsTest : public testing::Test {
   Walk Track(OdometryOptions options, int saved_after = 0) {
     auto odometry = std::make_unique<Odometry>(options, sequence_->camera(), LensDistortion());
     Walk run;
+    odometry->SetTrackingObserver(
+        [&run](const TrackedImage& tracked) { run.num_observed_loops = tracked.loops.size(); });
     for (int i = 0; i < static_cast<int>(images_.size()); ++i) {
       run.live.push_back(odometry->Process(images_[i]));
       if (i != saved_after || i == 0) continue;
@@ -61,6 +64,7 @@ Rigid3 Motion(const Rigid3& now, const Rigid3& before) { return now * before.Inv
 TEST_F(LoopsTest, AreClosedAtTheTruePlaceAndNamed) {
   const Walk run = Track({});
   ASSERT_EQ(run.result.loops.size(), 1u);
+  EXPECT_EQ(run.num_observed_loops, 1u);
   const Loop& loop = run.result.loops[0];
   EXPECT_GE(loop.num_keyframes, 3);
   EXPECT_GT(loop.frame, loop.reference + 50);

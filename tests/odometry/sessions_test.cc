@@ -109,6 +109,12 @@ TEST_F(SessionsTest, FindsItselfInTheMapWhateverTheClockSays) {
     ASSERT_TRUE(FirstLocalizedFrame(result)) << time;
     EXPECT_LT(*FirstLocalizedFrame(result), 25);
     EXPECT_LT(LargestDistance(result), 0.01) << time;  // measured: 4 mm
+    ASSERT_EQ(result.earlier_sessions.size(), 1u);
+    EXPECT_EQ(result.earlier_sessions[0].name, "first");
+    EXPECT_EQ(result.earlier_sessions[0].world, 0);
+    ASSERT_FALSE(result.earlier_sessions[0].world_from_cam.empty());
+    EXPECT_LE(result.earlier_sessions[0].world_from_cam.size(),
+              first_->submaps[0].map.keyframes().size());
     for (const TimedPose& keyframe : result.keyframes) {
       EXPECT_GE(keyframe.timestamp, time);
       EXPECT_LE(keyframe.timestamp, time + 2.0);
@@ -134,6 +140,35 @@ TEST_F(SessionsTest, ExtendsTheMap) {
   }
   EXPECT_TRUE(observes_old_landmark);
   EXPECT_FALSE(map.IsOfEarlierSession(map.keyframes().back().first));
+}
+
+// A third run in the map of two, which share a world, or have one each.
+TEST_F(SessionsTest, NamesTheKeyframesOfEarlierSessions) {
+  for (const bool is_elsewhere : {false, true}) {
+    Odometry second(Options(), camera_, LensDistortion());
+    SyntheticSequenceOptions other = RoomOptions();
+    other.seed = 7;
+    if (is_elsewhere) {
+      second.SetMap(Map());
+      for (const RgbdImage& image : RenderImages(other, 30)) second.Process(image);
+      EXPECT_EQ(second.Finish().earlier_sessions.size(), 1u);
+    } else {
+      Run(100.0, &second);
+    }
+    MapContents both = *second.ShareMaps("second");
+    ASSERT_EQ(both.submaps.size(), is_elsewhere ? 2u : 1u);
+    const Rigid3 last_pose = both.submaps.back().map.keyframes().back().second.cam_from_world;
+    Odometry third(Options(), camera_, LensDistortion());
+    third.SetMap(std::move(both));
+    third.Process((*images_)[0]);
+    const std::vector<SessionPath> sessions = third.Finish().earlier_sessions;
+    ASSERT_EQ(sessions.size(), 2u);
+    EXPECT_EQ(sessions[0].name, "first");
+    EXPECT_EQ(sessions[1].name, "second");
+    EXPECT_EQ(sessions[1].world, is_elsewhere ? 1 : 0);
+    EXPECT_LT((sessions[1].world_from_cam.back().translation() - last_pose.OriginInSource()).norm(),
+              1e-9);
+  }
 }
 
 TEST_F(SessionsTest, KeepsPosesInTheMapOnly) {

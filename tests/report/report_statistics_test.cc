@@ -62,5 +62,18 @@ TEST(FindNotTrackedSpans, GroupsConsecutiveFrames) {
   EXPECT_EQ(spans[1].last_frame, 7);
 }
 
+TEST(FindSubMaps, AreInOrderOfTheirFirstFrames) {
+  std::vector<ReportFrame> frames(6);
+  EXPECT_EQ(FindSubMaps(frames).size(), 1u);
+  const int numbers[] = {kNoSubMapNumber, 3, 3, 1, 3, kNoSubMapNumber};
+  for (int i = 0; i < 6; ++i) frames[i].submap = numbers[i];
+  const std::vector<SubMapStart> submaps = FindSubMaps(frames);
+  ASSERT_EQ(submaps.size(), 2u);
+  EXPECT_EQ(submaps[0].number, 3);
+  EXPECT_EQ(submaps[0].first_frame, 1);
+  EXPECT_EQ(submaps[1].number, 1);
+  EXPECT_EQ(submaps[1].first_frame, 3);
+}
+
 }  // namespace
 }  // namespace msc_vo

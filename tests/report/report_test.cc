@@ -241,6 +241,57 @@ TEST(Report, LegendsContainOnlyWhatOccurs) {
               AllOf(Contains("tracked"), Not(Contains("weak")), Not(Contains("lost"))));
 }
 
+TEST(Report, DrawsSubmapsInColorsOfTheirOwn) {
+  ReportData data = MakeFakeRun(100);
+  const auto paths = [](const std::string& html, const std::string& css_class) {
+    return CountOf(WithoutScripts(html), "<polyline class=\"" + css_class + "\"");
+  };
+  const std::string one = ReportOf(data);
+  EXPECT_EQ(paths(one, "curve estimate"), 2);  // top and side view
+  EXPECT_EQ(paths(one, "curve submap-1"), 0);
+  EXPECT_THAT(TextsOf(one, "li"), Contains("estimate"));
+  for (int i = 0; i < 100; ++i) data.frames[i].submap = i < 10 ? kNoSubMapNumber : i < 60 ? 2 : 5;
+  const std::string two = ReportOf(data);
+  EXPECT_EQ(paths(two, "curve estimate"), 2);
+  EXPECT_EQ(paths(two, "curve submap-1"), 2);
+  EXPECT_THAT(TextsOf(two, "li"),
+              AllOf(IsSupersetOf({"submap 2, from frame 10", "submap 5, from frame 60"}),
+                    Not(Contains("estimate"))));
+}
+
+TEST(Report, DrawsThePathBeforeLoopsAndThoseOfEarlierSessions) {
+  ReportData data = MakeFakeRun(100);
+  const auto count = [&](const std::string& text) {
+    return CountOf(WithoutScripts(ReportOf(data)), text);
+  };
+  for (const char* name : {"curve odometry", "curve session-", "class=\"found\""}) {
+    EXPECT_EQ(count(name), 0) << name;
+  }
+  for (const ReportFrame& frame : data.frames) {
+    data.odometry.emplace_back(1.01 * frame.world_from_cam.translation());
+  }
+  data.map.sessions = {{"monday", {{0, 0, 0}, {1, 0, 0}}}, {"tuesday", {{0, 1, 0}, {1, 1, 0}}}};
+  data.found_frame = 30;
+  EXPECT_EQ(count("<polyline class=\"curve odometry\""), 2);  // top and side view
+  EXPECT_EQ(count("<polyline class=\"curve session-1\""), 2);
+  EXPECT_EQ(count("<circle class=\"found\""), 2);
+  EXPECT_THAT(TextsOf(ReportOf(data), "li"),
+              IsSupersetOf({"before loops were closed", "earlier session: monday",
+                            "earlier session: tuesday", "found in the map: frame 30, 1.00 s"}));
+  data.odometry[50].setConstant(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(count("<polyline class=\"curve odometry\""), 4);  // a gap
+}
+
+TEST(Report, ShowsTheMapOfARunWithoutPoses) {
+  ReportData data = MakeFakeRun(20);
+  data.map.sessions = {{"monday", {{0, 0, 0}, {1, 0, 0}}}};
+  for (ReportFrame& frame : data.frames) frame.submap = kNoSubMapNumber;
+  const std::string html = WithoutScripts(ReportOf(data));
+  EXPECT_EQ(CountOf(html, "class=\"curve estimate\""), 0);
+  EXPECT_EQ(CountOf(html, "<circle class=\"start\""), 0);
+  EXPECT_EQ(CountOf(html, "<polyline class=\"curve session-0\""), 2);
+}
+
 TEST(Report, DoesNotStackParallelStages) {
   ReportData data = MakeFakeRun(10);
   data.stages = {{"left", false}, {"right", false}, {"both"}, {"rest"}};

@@ -30,11 +30,14 @@ TEST(RunJson, HasOneColumnPerQuantity) {
   ReportData data = MakeFakeRun(3);
   data.frames[1].rotation_sigma_deg = 0.5;
   data.frames[1].translation_sigma = 0.25;
+  data.frames[1].submap = kNoSubMapNumber;
+  data.frames[2].submap = 7;
   const json run = json::parse(FormatRunJson(data));
   const json& frames = run["frames"];
   EXPECT_EQ(frames["first"], 0);
   EXPECT_EQ(frames["time"], EncodeBase64(std::vector<float>{0.0F, 1 / 30.0F, 2 / 30.0F}));
   EXPECT_EQ(frames["keyframe"], EncodeBase64(std::vector<uint8_t>{1, 0, 0}));
+  EXPECT_EQ(frames["submap"], EncodeBase64(std::vector<uint16_t>{0, 65535, 7}));
   // Base64 has four characters for three bytes: 3 frames of 7, 2, 5 floats and 4 shorts.
   EXPECT_EQ(frames["pose"].get<std::string>().size(), 3u * 7 * 4 * 4 / 3);
   EXPECT_EQ(frames["sigma"].get<std::string>().size(), 3u * 2 * 4 * 4 / 3);
@@ -94,6 +97,22 @@ TEST(RunJson, ListsLoopsBetweenFramesOfTheRun) {
   EXPECT_EQ(json::parse(FormatRunJson(data))["loops"], json::parse("[[4, 0]]"));
 }
 
+TEST(RunJson, StoresThePathBeforeLoopsAndThoseOfEarlierSessions) {
+  ReportData data = MakeFakeRun(3);
+  const json plain = json::parse(FormatRunJson(data));
+  for (const char* key : {"odometry", "found"}) EXPECT_FALSE(plain.contains(key)) << key;
+  EXPECT_FALSE(plain["map"].contains("sessions"));
+  data.odometry = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}};
+  data.found_frame = 2;
+  data.map.sessions = {{"monday", {{1, 0, 0}}}, {"tuesday", {{0, 1, 0}, {0, 2, 0}}}};
+  const json run = json::parse(FormatRunJson(data));
+  EXPECT_EQ(run["odometry"], EncodeBase64(std::vector<float>{1, 2, 3, 4, 5, 6, 7, 8, 9}));
+  EXPECT_EQ(run["found"], 2);
+  EXPECT_EQ(run["map"]["sessions"][0]["name"], "monday");
+  EXPECT_EQ(run["map"]["sessions"][1]["positions"],
+            EncodeBase64(std::vector<float>{0, 1, 0, 0, 2, 0}));
+}
+
 TEST(RunJson, UpdatesHoldOnlyWhatIsNew) {
   RunUpdate update;
   update.run = "abc";
@@ -102,7 +121,9 @@ TEST(RunJson, UpdatesHoldOnlyWhatIsNew) {
   const json nothing = json::parse(FormatRunUpdate(update));
   EXPECT_EQ(nothing["state"], "running");
   EXPECT_EQ(nothing["map_version"], 4);
-  for (const char* key : {"frames", "map", "views"}) EXPECT_FALSE(nothing.contains(key)) << key;
+  for (const char* key : {"frames", "map", "views", "moved", "loops", "found"}) {
+    EXPECT_FALSE(nothing.contains(key)) << key;
+  }
 
   const ReportData data = MakeFakeRun(5);
   const FrameView view = MakeView(4);
@@ -111,7 +132,16 @@ TEST(RunJson, UpdatesHoldOnlyWhatIsNew) {
   update.start = data.frames[0].timestamp;
   update.map = &data.map;
   update.view = &view;
+  update.num_processed = 5;
+  update.moved_frames = {data.frames[0]};
+  update.moved_frames[0].world_from_cam = Rigid3();
+  update.loops = {{4, 0}, {5, 0}};
+  update.found_frame = 1;
   const json all = json::parse(FormatRunUpdate(update));
+  EXPECT_EQ(all["moved"]["pose"], EncodeBase64(std::vector<float>{0, 0, 0, 0, 0, 0, 1}));
+  EXPECT_EQ(all["moved"]["submap"], EncodeBase64(std::vector<uint16_t>{0}));
+  EXPECT_EQ(all["loops"], json::parse("[[4, 0]]"));
+  EXPECT_EQ(all["found"], 1);
   EXPECT_EQ(all["frames"]["first"], 3);
   EXPECT_EQ(all["frames"]["time"], EncodeBase64(std::vector<float>{3 / 30.0F, 4 / 30.0F}));
   EXPECT_EQ(all["map"]["line_axes"].get<std::string>().size(), 32u);  // 24 bytes

@@ -200,6 +200,39 @@ TEST_F(ResultFilesTest, WritesSegmentsAndMarksPosesBeforeThem) {
   EXPECT_EQ(joined["joined"]["sigma_translation"], 0.02);
 }
 
+TEST_F(ResultFilesTest, SaysByHowMuchLoopsHaveCorrected) {
+  OdometryResult result = Result();
+  const auto table = [&] { return FormatRunTable(Summarize(result), {}, "out"); };
+  EXPECT_THAT(table(), Not(HasSubstr("loops")));
+  result.loops = {{4, 1, 3, DegreesToRadians(0.5), 0.012}};
+  EXPECT_THAT(LineNaming("loops", table()), Names("1", "12.0 mm", "0.50 degrees"));
+  EXPECT_THAT(FormatReport(result, Summarize(result), {}),
+              HasSubstr("frame 4 shows the place of frame 1"));
+  result.loops.push_back({4, -1, 3, DegreesToRadians(2.0), 0.003});
+  EXPECT_THAT(LineNaming("loops", table()), Names("2", "up to 12.0 mm", "2.00 degrees"));
+  result.loops.resize(5, result.loops[0]);
+  EXPECT_EQ(DescribeLoopFrames(Summarize(result)),
+            "frame 4 shows the place of frame 1, frame 4 shows the place of an earlier session, "
+            "frame 4 shows the place of frame 1, and 2 more");
+}
+
+TEST_F(ResultFilesTest, SaysWhereTheRunWasFoundInTheMap) {
+  OdometryResult result = Result();
+  const auto table = [&] { return FormatRunTable(Summarize(result), {}, "out"); };
+  result.segments = {{0, 4, 3, 0, std::nullopt}};
+  EXPECT_THAT(table(), Not(HasSubstr("found")));
+  result.segments = {{0, -1, 0, 0, std::nullopt}, {0, 4, 3, 1, std::nullopt}};
+  result.segments[0].is_earlier_session = true;
+  EXPECT_THAT(LineNaming("found", table()), Names("not"));
+  result.segments[1].world = 0;
+  result.segments[1].join = SegmentJoin{3, 3, 0.01, 0.02};
+  for (int i = 0; i < 5; ++i) {
+    result.frames[i].cam_from_odometry.translation() = Eigen::Vector3d(0.0, 0.5 * i, 0.0);
+  }
+  EXPECT_THAT(LineNaming("found", table()), Names("frame 3 of 5", "0.30 s", "1.50 m", "60 %"));
+  EXPECT_THAT(FormatReport(result, Summarize(result), {}), HasSubstr("found in the map: frame 3,"));
+}
+
 TEST_F(ResultFilesTest, TheTableNamesWhatSelfCalibrationHasCorrected) {
   OdometryResult result = Result();
   RunContext context;

@@ -59,6 +59,17 @@ TEST(ViewedMap, ContainsAllLandmarksAndAxes) {
   EXPECT_EQ(map.lines[1].axis, -1);
   EXPECT_EQ(map.points.size(), 1u);
   EXPECT_TRUE(map.world_from_axes);
+  EXPECT_TRUE(map.sessions.empty());
+}
+
+TEST(ViewedMap, ContainsTheKeyframesOfEarlierSessions) {
+  TrackedScene scene;
+  scene.map.map.BeginSession();
+  const Rigid3 cam_from_world(Eigen::Quaterniond::Identity(), {1.0, 2.0, 3.0});
+  scene.map.map.AddKeyframe(scene.tracked.frame, cam_from_world);
+  const ReportMap map = ViewedMap(scene.map);
+  ASSERT_EQ(map.sessions.size(), 1u);
+  EXPECT_EQ(map.sessions[0].positions, std::vector<Eigen::Vector3d>{Eigen::Vector3d::Zero()});
 }
 
 }  // namespace

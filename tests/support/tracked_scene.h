@@ -57,12 +57,13 @@ struct TrackedScene {
     segments.push_back(segment);
   }
 
-  TrackedImage View() const { return {image, *tracked.frame, tracked, map, result}; }
+  TrackedImage View() const { return {image, *tracked.frame, tracked, map, result, loops}; }
 
   RgbdImage image;
   TrackedFrame tracked;
   MapSnapshot map;
   FrameResult result;
+  std::vector<Loop> loops;
   std::vector<LineSegment3> segments;
 };
 

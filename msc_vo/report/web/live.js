@@ -64,11 +64,13 @@ class LiveClient {
     this.controls.hidden = !update.can_pause;
     if (document.activeElement !== this.speed) this.speed.value = String(update.speed);
     this.state.textContent = `${update.state}, ${update.count} of ${update.total} frames`;
+    model.moveFrames(update.moved);
     model.addFrames(update.frames);
     model.addViews(update.views);
     if (model.views.length > MAX_KEPT_VIEWS)
       model.views.splice(0, model.views.length - MAX_KEPT_VIEWS);
     model.setMap(update.map);
+    if (update.map) model.setPlaces(update);
     this.mapVersion = update.map_version;
     if (this.follow.checked) model.setFrame(this.newestShown());
     if (update.frames || update.map || update.views) model.notifyData();

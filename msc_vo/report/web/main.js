@@ -14,6 +14,19 @@ function toggleButton(label, title, onClick) {
   return button;
 }
 
+// Lists the colors of the paths in the 3-D view.
+function showLegend(model, list) {
+  const entries = sceneLegend(model);
+  list.hidden = entries.length === 0;
+  list.replaceChildren(...entries.map(([color, text]) => {
+    const item = document.createElement("li");
+    const swatch = svgElement("svg", {viewBox: "0 0 18 10", "aria-hidden": "true"});
+    swatch.append(svgElement("path", {d: "M0 5H18", style: `stroke: var(--${color})`}));
+    item.append(swatch, text);
+    return item;
+  }));
+}
+
 // Buttons for views and layers; returns what their keys do.
 function startSceneBar(model, scene) {
   const actions = {}, views = {}, layers = {};
@@ -35,23 +48,29 @@ function startSceneBar(model, scene) {
     byId("scene-views").append(views[name]);
   }
   scene.layers.all.forEach(([label], i) => {
-    actions[i + 1] = () => {
+    const toggle = () => {
       scene.toggleLayer(label);
       showPressed();
     };
-    layers[label] = toggleButton(label, `Show or hide ${label} (${i + 1})`, actions[i + 1]);
+    if (i < 9) actions[i + 1] = toggle;
+    layers[label] =
+        toggleButton(label, `Show or hide ${label}${i < 9 ? ` (${i + 1})` : ""}`, toggle);
     layers[label].dataset.layer = label;
     byId("scene-layers").append(layers[label]);
   });
-  model.addEventListener("data", showPressed);
-  showPressed();
+  const showAll = () => {
+    showPressed();
+    showLegend(model, byId("scene-legend"));
+  };
+  model.addEventListener("data", showAll);
+  showAll();
   return actions;
 }
 
 // The 3-D view, or null without WebGL.
 function startScene(model) {
   try {
-    return new SceneView(model, byId("scene-canvas"), byId("scene-image"));
+    return new SceneView(model, byId("scene-canvas"), byId("scene-image"), byId("scene-label"));
   } catch (error) {
     document.querySelector(".scene-panel").hidden = true;
     document.querySelector(".viewer-grid").style.gridTemplateColumns = "minmax(0, 1fr)";

@@ -4,12 +4,15 @@
 
 const STATUS_NAMES = ["tracked", "weak", "dropped", "unreadable", "predicted", "lost"];
 
+const NO_SUBMAP = 65535;  // the frame has no pose
+
 // Columns of frames: name, type, numbers per frame (0: one per stage).
 const FRAME_COLUMNS = [
   ["time", Float32Array, 1],  // seconds since the first frame
   ["pose", Float32Array, 7],  // world_from_cam: position in metres, quaternion x y z w
   ["status", Uint8Array, 1],  // index into STATUS_NAMES
   ["keyframe", Uint8Array, 1],
+  ["submap", Uint16Array, 1],  // number of the submap that the pose refers to, or NO_SUBMAP
   ["counts", Uint16Array, 4],  // points, lines, inlier points, inlier lines
   ["sigma", Float32Array, 2],  // rotation in degrees, translation in metres; NaN: no estimate
   ["error", Float32Array, 1],  // metres; NaN: no ground truth
@@ -30,6 +33,11 @@ function decodeSurface(surface) {
   };
 }
 
+// The keyframes of an earlier run. `name` may be empty.
+function decodeSession({name, positions}) {
+  return {name, positions: decodeArray(Float32Array, positions)};
+}
+
 class RunModel extends EventTarget {
   // `surface`: data of the fused surface; null if there is none.
   constructor(data, surface) {
@@ -41,10 +49,17 @@ class RunModel extends EventTarget {
     this.columns = {};
     for (const [name, Type] of FRAME_COLUMNS) this.columns[name] = new Type(0);
     this.views = [];  // by ascending frame
-    this.map = {lines: new Float32Array(0), axes: new Uint8Array(0), points: new Float32Array(0)};
+    this.map = {
+      lines: new Float32Array(0),
+      axes: new Uint8Array(0),
+      points: new Float32Array(0),
+      sessions: []
+    };
     this.axes = data.axes || null;
     this.groundTruth = decodeArray(Float32Array, data.ground_truth);
+    this.odometry = decodeArray(Float32Array, data.odometry);  // positions before loops, or empty
     this.surface = surface && decodeSurface(surface);
+    this.setPlaces(data);
     this.addFrames(data.frames);
     this.setMap(data.map);
     this.addViews(data.views);
@@ -68,12 +83,44 @@ class RunModel extends EventTarget {
     this.count = this.columns.status.length;
   }
 
+  // Loops as pairs of frames, and the first frame that was found in the map of earlier runs or -1.
+  setPlaces({loops, found}) {
+    this.loops = loops || [];
+    this.found = found === undefined ? -1 : found;
+  }
+
+  // Other poses of the first frames.
+  moveFrames(moved) {
+    if (!moved) return;
+    for (const [name, Type] of [["pose", Float32Array], ["submap", Uint16Array]]) {
+      const values = decodeArray(Type, moved[name]);
+      this.columns[name].set(values.subarray(0, this.columns[name].length));
+    }
+  }
+
+  // Whether the pose of a frame can be drawn.
+  hasPose(frame) {
+    return frame >= 0 && frame < this.count && this.columns.submap[frame] !== NO_SUBMAP &&
+        this.columns.pose.subarray(7 * frame, 7 * frame + 7).every(Number.isFinite);
+  }
+
+  // The submaps that poses refer to, with their first frames, in order of these.
+  submaps() {
+    const found = new Map();
+    for (let i = 0; i < this.count; ++i) {
+      const number = this.columns.submap[i];
+      if (number !== NO_SUBMAP && !found.has(number)) found.set(number, {number, first: i});
+    }
+    return [...found.values()];
+  }
+
   setMap(map) {
     if (!map) return;
     this.map = {
       lines: decodeArray(Float32Array, map.lines),   // start and end, metres
       axes: decodeArray(Uint8Array, map.line_axes),  // 0, 1, 2; 3: no axis
       points: decodeArray(Float32Array, map.points),
+      sessions: (map.sessions || []).map(decodeSession),
     };
     if (map.axes) this.axes = map.axes;
   }

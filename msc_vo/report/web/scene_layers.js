@@ -1,6 +1,8 @@
 // The contents of the 3-D view: one object per layer, filled from the model.
 
 const AXIS_COLORS = ["axis-0", "axis-1", "axis-2", "axis-none"];
+const SUBMAP_COLORS = ["estimate", "submap-1", "submap-2", "submap-3", "submap-4", "submap-5"];
+const SESSION_COLORS = ["session-0", "session-1", "session-2"];
 
 // The eight segments of a camera frustum of the given depth (metres), in camera coordinates.
 function frustumSegments(camera, depth) {
@@ -27,25 +29,66 @@ function poseMatrix(model, frame) {
   return matrixOf(model.columns.pose.subarray(7 * frame, 7 * frame + 7));
 }
 
-// The positions of all frames, without gaps.
+// The position of a frame, three numbers.
+function positionOf(model, frame) {
+  return model.columns.pose.subarray(7 * frame, 7 * frame + 3);
+}
+
+// The positions of all frames that have one.
 function trajectoryOf(model) {
   const points = [];
   for (let i = 0; i < model.count; ++i) {
-    const p = model.columns.pose.subarray(7 * i, 7 * i + 3);
-    if (Number.isFinite(p[0] + p[1] + p[2])) points.push(p[0], p[1], p[2]);
+    if (model.hasPose(i)) points.push(...positionOf(model, i));
   }
   return new Float32Array(points);
 }
 
-// One segment per closed loop, between the positions of its two frames, without gaps.
+// The names of the colors of submaps, by number. The first one has that of estimates.
+function submapColors(model) {
+  const names = new Map();
+  model.submaps().forEach(
+      ({number}, i) => names.set(number, SUBMAP_COLORS[i % SUBMAP_COLORS.length]));
+  return names;
+}
+
+// One segment per closed loop, between the positions of its two frames.
 function loopSegments(model) {
   const ends = [];
-  for (const frames of model.info.loops || []) {
-    const segment =
-        frames.flatMap((frame) => [...model.columns.pose.subarray(7 * frame, 7 * frame + 3)]);
-    if (segment.every(Number.isFinite)) ends.push(...segment);
+  for (const frames of model.loops) {
+    if (!frames.every((frame) => model.hasPose(frame))) continue;
+    for (const frame of frames) ends.push(...positionOf(model, frame));
   }
   return new Float32Array(ends);
+}
+
+// Three strokes through a position, each `length` metres.
+function crossSegments(position, length) {
+  const ends = [];
+  for (let axis = 0; axis < 3; ++axis) {
+    for (const side of [-0.5, 0.5]) {
+      ends.push(...position.map((value, i) => value + (i === axis ? side * length : 0)));
+    }
+  }
+  return new Float32Array(ends);
+}
+
+// What the colors of paths mean: [color, text]. Empty if there is only the trajectory.
+function sceneLegend(model) {
+  const entries = [];
+  const submaps = model.submaps(), colors = submapColors(model);
+  if (submaps.length > 1) {
+    for (const {number, first} of submaps) {
+      entries.push([colors.get(number), `submap ${number}, from frame ${first}`]);
+    }
+  }
+  if (model.odometry.length > 0) entries.push(["odometry", "before loops were closed"]);
+  if (loopSegments(model).length > 0) entries.push(["ink", "loop: two frames at one place"]);
+  model.map.sessions.forEach(({name}, i) => {
+    const text = name ? `earlier session: ${name}` : "earlier sessions";
+    entries.push([SESSION_COLORS[i % SESSION_COLORS.length], text]);
+  });
+  if (entries.length > 0 && submaps.length === 1) entries.unshift(["estimate", "trajectory"]);
+  return entries;
 }
 
 // The fused surface. It is drawn from its front only, so that one looks into rooms from outside, and
@@ -77,7 +120,10 @@ class SceneLayers {
     this.keyframes = new ThickLines(1, 0.5);
     this.trajectory = new ThickLines(2.4);
     this.truth = new ThickLines(4, 0.5);
+    this.odometry = new ThickLines(1.2);
     this.loops = new ThickLines(3);
+    this.sessions = new ThickLines(1.8, 0.8);
+    this.found = new ThickLines(3);
     this.axes = new ThickLines(4);
     this.camera = new ThickLines(2);
     this.points = new THREE.Points(
@@ -87,11 +133,12 @@ class SceneLayers {
     this.points.frustumCulled = false;
     this.surface = makeSurface(model);
     this.camera.matrixAutoUpdate = false;
-    // In order of the keys 1 to 9: label, object.
+    // Label, object; the first nine in order of the keys 1 to 9.
     this.all = [
       ["lines", this.lines], ["points", this.points], ["keyframes", this.keyframes],
       ["trajectory", this.trajectory], ["ground truth", this.truth], ["axes", this.axes],
-      ["camera", this.camera], ["surface", this.surface], ["loops", this.loops]
+      ["camera", this.camera], ["surface", this.surface], ["loops", this.loops],
+      ["before loops", this.odometry], ["earlier sessions", this.sessions], ["found", this.found]
     ];
     this.hidden = new Set();
     for (const [, object] of this.all) group.add(object);
@@ -101,6 +148,9 @@ class SceneLayers {
   isEmpty(label) {
     if (label === "ground truth") return this.model.groundTruth.length === 0;
     if (label === "loops") return loopSegments(this.model).length === 0;
+    if (label === "before loops") return this.model.odometry.length === 0;
+    if (label === "earlier sessions") return this.model.map.sessions.length === 0;
+    if (label === "found") return !this.model.hasPose(this.model.found);
     if (label === "axes") return !this.model.axes;
     if (label === "surface") return !this.model.surface;
     return false;
@@ -117,7 +167,9 @@ class SceneLayers {
       object.visible = !this.hidden.has(label) && !this.isEmpty(label);
     }
     if (from_camera) {
-      for (const object of [this.camera, this.keyframes, this.surface]) object.visible = false;
+      for (const object of [this.camera, this.keyframes, this.surface, this.found]) {
+        object.visible = false;
+      }
     }
   }
 
@@ -135,10 +187,13 @@ class SceneLayers {
     this.points.geometry = new THREE.BufferGeometry();
     this.points.geometry.setAttribute("position", new THREE.BufferAttribute(model.map.points, 3));
     this.points.material.color.set(themeColor("faint"));
-    this.fillPath(this.trajectory, trajectoryOf(model), "estimate");
+    this.fillTrajectory();
     this.fillPath(this.truth, model.groundTruth, "ground-truth");
+    this.fillPath(this.odometry, model.odometry, "odometry");
     const loops = loopSegments(model);
     this.loops.setSegments(loops, uniformColors(loops.length / 6, themeColor("ink")));
+    this.fillSessions();
+    this.fillFound(0.08 * scale);
     this.fillKeyframes(0.035 * scale);
     this.fillAxes(0.12 * scale, colors);
     const frustum = frustumSegments(model.info.camera, 0.07 * scale);
@@ -150,20 +205,56 @@ class SceneLayers {
     object.setSegments(ends, uniformColors(ends.length / 6, themeColor(color)));
   }
 
+  // Each submap in its color. Frames of different submaps are not connected.
+  fillTrajectory() {
+    const {model} = this;
+    const names = submapColors(model), ends = [], rgb = [];
+    let last = -1;
+    for (let i = 0; i < model.count; ++i) {
+      if (!model.hasPose(i)) continue;
+      const submap = model.columns.submap[i];
+      if (last >= 0 && model.columns.submap[last] === submap) {
+        ends.push(...positionOf(model, last), ...positionOf(model, i));
+        rgb.push(...new THREE.Color(themeColor(names.get(submap))).toArray());
+      }
+      last = i;
+    }
+    this.trajectory.setSegments(new Float32Array(ends), new Float32Array(rgb));
+  }
+
+  fillSessions() {
+    const ends = [], rgb = [];
+    this.model.map.sessions.forEach(({positions}, i) => {
+      const segments = pathSegments(positions);
+      const color = themeColor(SESSION_COLORS[i % SESSION_COLORS.length]);
+      for (const coordinate of segments) ends.push(coordinate);
+      for (const value of uniformColors(segments.length / 6, color)) rgb.push(value);
+    });
+    this.sessions.setSegments(new Float32Array(ends), new Float32Array(rgb));
+  }
+
+  fillFound(length) {
+    if (this.isEmpty("found")) return;
+    const cross = crossSegments([...positionOf(this.model, this.model.found)], length);
+    this.found.setSegments(cross, uniformColors(3, themeColor("found")));
+  }
+
   fillKeyframes(depth) {
     const frustum = frustumSegments(this.model.info.camera, depth);
-    const ends = [];
+    const ends = [], rgb = [];
+    const names = submapColors(this.model);
     const point = new THREE.Vector3();
     for (let i = 0; i < this.model.count; ++i) {
-      if (!this.model.columns.keyframe[i]) continue;
+      if (!this.model.columns.keyframe[i] || !this.model.hasPose(i)) continue;
+      const color = themeColor(names.get(this.model.columns.submap[i]));
+      rgb.push(...uniformColors(frustum.length / 6, color));
       const pose = poseMatrix(this.model, i);
       for (let k = 0; k < frustum.length; k += 3) {
         point.fromArray(frustum, k).applyMatrix4(pose);
         ends.push(point.x, point.y, point.z);
       }
     }
-    this.keyframes.setSegments(
-        new Float32Array(ends), uniformColors(ends.length / 6, themeColor("estimate")));
+    this.keyframes.setSegments(new Float32Array(ends), new Float32Array(rgb));
   }
 
   // The Manhattan axes, at the first camera.

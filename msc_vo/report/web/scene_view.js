@@ -55,7 +55,7 @@ function meanAzimuth(model, rotation) {
   const sum = new THREE.Vector3(), pose = new THREE.Quaternion();
   for (let i = 0; i < model.count; ++i) {
     pose.fromArray(model.columns.pose, 7 * i + 3);
-    if (Number.isFinite(pose.x)) sum.add(new THREE.Vector3(0, 0, 1).applyQuaternion(pose));
+    if (model.hasPose(i)) sum.add(new THREE.Vector3(0, 0, 1).applyQuaternion(pose));
   }
   sum.applyMatrix4(rotation);
   return Math.hypot(sum.x, sum.y) > 0.2 * model.count ? Math.atan2(sum.x, sum.y) : 0;
@@ -71,10 +71,12 @@ const SCENE_VIEWS = {
 };
 
 class SceneView {
-  constructor(model, canvas, image) {
+  // `label`: element that follows the frame that was found in the map of earlier runs.
+  constructor(model, canvas, image, label) {
     this.model = model;
     this.canvas = canvas;
     this.image = image;
+    this.label = label;
     this.renderer = new THREE.WebGLRenderer(
         {canvas, antialias: true, alpha: true, preserveDrawingBuffer: true});
     this.scene = new THREE.Scene();
@@ -190,6 +192,21 @@ class SceneView {
       const isCamera = this.view === "camera";
       this.layers.show(isCamera);
       this.renderer.render(this.scene, isCamera ? this.recorded : this.perspective);
+      this.placeLabel();
     });
+  }
+
+  placeLabel() {
+    const {model, label, canvas} = this;
+    label.hidden = !this.layers.found.visible;
+    if (label.hidden) return;
+    const time = formatNumber(model.value("time", model.found), 2);
+    label.textContent = `found in the map: frame ${model.found}, ${time} s`;
+    const at = new THREE.Vector3(...positionOf(model, model.found))
+                   .applyMatrix4(this.world.matrix)
+                   .project(this.perspective);
+    label.hidden = Math.max(Math.abs(at.x), Math.abs(at.y), Math.abs(at.z)) > 1;
+    label.style.left = `${(0.5 + 0.5 * at.x) * canvas.clientWidth}px`;
+    label.style.top = `${(0.5 - 0.5 * at.y) * canvas.clientHeight}px`;
   }
 }

@@ -78,10 +78,15 @@ function uniformColors(count, color) {
   return colors;
 }
 
-// The segments between consecutive points (three numbers each).
+// The segments between consecutive points (three numbers each) that are finite.
 function pathSegments(points) {
-  const count = Math.max(0, points.length / 3 - 1);
-  const ends = new Float32Array(6 * count);
-  for (let i = 0; i < count; ++i) ends.set(points.subarray(3 * i, 3 * i + 6), 6 * i);
-  return ends;
+  const ends = new Float32Array(Math.max(0, 2 * points.length - 6));
+  let size = 0;
+  for (let i = 0; i + 6 <= points.length; i += 3) {
+    const segment = points.subarray(i, i + 6);
+    if (!segment.every(Number.isFinite)) continue;
+    ends.set(segment, size);
+    size += 6;
+  }
+  return ends.subarray(0, size);
 }

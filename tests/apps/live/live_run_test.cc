@@ -9,6 +9,8 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "msc_vo/report/base64.h"
+
 namespace msc_vo {
 namespace {
 
@@ -32,6 +34,29 @@ class LiveRunTest : public testing::Test {
       run_.Show(scene_.View());
       run_.Add(scene_.result, Never);
     }
+  }
+  // Processes a frame one metre in front of keyframe 0, which the mapper has moved to `x` since the
+  // frame before, late enough for viewers to get the map.
+  void ProcessAfterMapping(double x) {
+    std::this_thread::sleep_for(milliseconds(310));
+    scene_.map.map.SetPose(0, Rigid3(Eigen::Quaterniond::Identity(), {-x, 0.0, 0.0}));
+    ++scene_.map.newest_keyframe;
+    scene_.tracked.reference = 0;
+    scene_.tracked.cam_from_reference.translation() = Eigen::Vector3d(0.0, 0.0, -1.0);
+    scene_.result.cam_from_world =
+        scene_.tracked.cam_from_reference * scene_.map.map.CamFromWorld(0);
+    Process(1);
+  }
+  // The poses of as many frames at `x`, as they are sent.
+  static std::string PosesAt(double x, int count) {
+    const Rigid3 pose = Rigid3(Eigen::Quaterniond::Identity(), {-x, 0.0, -1.0}).Inverse();
+    std::vector<float> poses;
+    for (int i = 0; i < count; ++i) {
+      for (const double value : pose.translation()) poses.push_back(static_cast<float>(value));
+      for (const double value : pose.rotation().coeffs())
+        poses.push_back(static_cast<float>(value));
+    }
+    return EncodeBase64(poses);
   }
   json Update(int num_frames, int map = -1, int view = -1) {
     return json::parse(run_.Update(num_frames, map, view));
@@ -77,6 +102,62 @@ TEST_F(LiveRunTest, ShowsImagesAndMapOnlyToThoseWhoWatch) {
   update = Update(6, 0, 5);
   EXPECT_FALSE(update.contains("views"));
   EXPECT_FALSE(update.contains("map"));
+}
+
+TEST_F(LiveRunTest, MovesItsFramesWithTheMapWhenALoopIsClosed) {
+  scene_.result.id = -1;
+  Update(0);
+  ProcessAfterMapping(0.0);
+  EXPECT_EQ(Update(0)["loops"], json::array());
+  ProcessAfterMapping(0.5);  // without a loop, poses are those known at the time
+  json update = Update(1, 0);
+  EXPECT_TRUE(update.contains("map"));
+  EXPECT_FALSE(update.contains("moved"));
+  EXPECT_EQ(update["frames"]["pose"], PosesAt(0.5, 1));
+
+  scene_.loops = {{1, 0, 3, 0.0, 2.0}};
+  scene_.map.num_loops = 1;
+  ProcessAfterMapping(2.0);
+  update = Update(2, 1);
+  EXPECT_EQ(update["moved"]["pose"], PosesAt(2.0, 2));
+  EXPECT_EQ(update["frames"]["pose"], PosesAt(2.0, 1));
+  EXPECT_EQ(update["loops"], json::parse("[[1, 0]]"));
+  EXPECT_FALSE(Update(3, 2).contains("moved"));
+  EXPECT_EQ(Update(0)["frames"]["pose"], PosesAt(2.0, 3));  // for another viewer
+}
+
+TEST_F(LiveRunTest, MovesItsFramesIntoTheMapOfAnEarlierRun) {
+  scene_.result.id = -1;
+  Update(0);
+  scene_.result.segment = scene_.result.world = scene_.map.world = 1;
+  ProcessAfterMapping(0.0);
+  json update = Update(0);
+  EXPECT_FALSE(update.contains("found"));
+  EXPECT_EQ(update["frames"]["submap"], EncodeBase64(std::vector<uint16_t>{1}));
+  scene_.result.world = scene_.map.world = 0;
+  scene_.map.map.BeginSession();
+  ProcessAfterMapping(3.0);
+  update = Update(1, 0);
+  EXPECT_EQ(update["moved"]["pose"], PosesAt(3.0, 1));
+  EXPECT_EQ(update["moved"]["submap"], EncodeBase64(std::vector<uint16_t>{0}));
+  EXPECT_EQ(update["map"]["sessions"].size(), 1u);
+  ProcessAfterMapping(3.0);
+  EXPECT_EQ(Update(2, 1)["found"], 1);
+}
+
+TEST_F(LiveRunTest, ContinuesWithTheFramesOfAResumedRun) {
+  std::vector<FrameResult> frames(3);
+  for (int i = 0; i < 3; ++i) frames[i].timestamp = 0.1 * i;
+  for (FrameResult& frame : frames) frame.segment = frame.world = 1;
+  frames[2].world = 0;  // found in the map of an earlier run
+  run_.Continue(frames);
+  Update(0);
+  scene_.result.id = 2;
+  ProcessAfterMapping(1.0);
+  const json update = Update(0);
+  EXPECT_EQ(update["count"], 4);
+  EXPECT_EQ(update["found"], 2);
+  EXPECT_EQ(update["views"][0]["frame"], 3);
 }
 
 TEST_F(LiveRunTest, GoesOnIfItsViewersVanish) {
