@@ -23,8 +23,8 @@ Eigen::Vector3d PlaceOf(const LineCandidate& line) {
   return 0.5 * (line.segment.start + line.segment.end);
 }
 
-// The landmarks of a map that a frame must show from a pose: those that no surface in its depth
-// image occludes.
+// The landmarks of a map that should be visible from a pose, without those that a surface in the
+// depth image of the frame occludes.
 LocalMap UnoccludedLandmarks(const Map& map, const Frame& frame, const Rigid3& cam_from_world) {
   LocalMap local = SelectVisibleLandmarks(map, frame, cam_from_world);
   const auto is_hidden = [&](const auto& candidate) {
@@ -39,7 +39,7 @@ LocalMap UnoccludedLandmarks(const Map& map, const Frame& frame, const Rigid3& c
   return local;
 }
 
-// Numbers of landmarks that a frame must show from a pose, and that it shows.
+// Numbers of landmarks that should be visible from a pose, and that are matched.
 struct PlaceEvidence {
   int num_visible = 0;
   int num_matched = 0;
@@ -55,22 +55,22 @@ PlaceEvidence EvidenceAt(const TrackerOptions& options, const Frame& frame, cons
   return {Sum(SizesOf(local)), pose ? Sum(SizesOf(LandmarkInliers(pose->matches))) : 0};
 }
 
-// What a frame says about a place where it may be.
-enum class Verdict {
+// Whether a frame can be at a place.
+enum class PlaceStatus {
   kPossible,
-  kUnknown,   // the map shows less there than where the frame was found
-  kExcluded,  // the frame lacks what the map shows there
+  kUnknown,   // the map does not cover its view there
+  kExcluded,  // the frame does not match the map there
 };
 
-Verdict Judge(const PlaceEvidence& place, const PlaceEvidence& found) {
+PlaceStatus ClassifyPlace(const PlaceEvidence& place, const PlaceEvidence& found) {
   constexpr double kMinCoverage = 0.5;       // relative to the place that was found
   constexpr double kMinRelativeRatio = 0.5;  // as HasComparableMatchRatio()
   if (place.num_visible == 0 || place.num_visible < kMinCoverage * found.num_visible) {
-    return Verdict::kUnknown;
+    return PlaceStatus::kUnknown;
   }
   const bool is_excluded = static_cast<double>(place.num_matched) * found.num_visible <
                            kMinRelativeRatio * found.num_matched * place.num_visible;
-  return is_excluded ? Verdict::kExcluded : Verdict::kPossible;
+  return is_excluded ? PlaceStatus::kExcluded : PlaceStatus::kPossible;
 }
 
 }  // namespace
@@ -100,14 +100,14 @@ bool LookAlikes::AreExcluded(const TrackerOptions& options, const TrackedFrame& 
     if (IsSame(alignment, tracked, snapshot.map, map, found)) continue;
     if (!at_found) at_found = evidence_at(found_from_world);
     const Rigid3 aligned_from_world = PoseBy(alignment, tracked, snapshot.map, map);
-    const Verdict verdict = Judge(evidence_at(aligned_from_world), *at_found);
-    if (verdict == Verdict::kExcluded) continue;
-    if (verdict == Verdict::kPossible) return false;
-    // In a row of places that look alike, the place that was found would have a copy on its other
-    // side.
+    const PlaceStatus status = ClassifyPlace(evidence_at(aligned_from_world), *at_found);
+    if (status == PlaceStatus::kExcluded) continue;
+    if (status == PlaceStatus::kPossible) return false;
+    // In a row of look-alikes, the place that was found has a copy on its other side, too.
     const Rigid3 opposite_from_world =
         found_from_world * aligned_from_world.Inverse() * found_from_world;
-    if (Judge(evidence_at(opposite_from_world), *at_found) != Verdict::kExcluded) return false;
+    if (ClassifyPlace(evidence_at(opposite_from_world), *at_found) != PlaceStatus::kExcluded)
+      return false;
   }
   return true;
 }

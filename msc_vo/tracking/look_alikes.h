@@ -11,19 +11,19 @@
 
 namespace msc_vo {
 
-/// The alignments of the current map with inactive ones that frames could not tell apart, because
-/// the maps contain places that look alike. They stay possible where frames look like one place
-/// only: the places that differ may be missing in the map.
+/// The alignments of the current map with inactive ones that frames could not distinguish, because
+/// a map contains places that look alike. They remain possible where later frames fit one place
+/// only, since the map may lack its look-alike.
 class LookAlikes {
  public:
   /// Adds the alignment by a frame that was found in `map`, unless it is known. `own`: the map that
   /// the frame is tracked in.
   void Add(const TrackedFrame& tracked, const Map& own, const Map& map, const Revisit& found);
 
-  /// Whether the frame excludes all other alignments with `map` than that by `found`: where an
-  /// alignment places the frame, the map has at least half as many visible landmarks as at the
-  /// place that was found, and the frame shows less than half as large a part of them. An alignment
-  /// that places the frame outside of the map is not excluded.
+  /// Whether the frame excludes all alignments with `map` except that of `found`. It excludes an
+  /// alignment if the map has at least half as many visible landmarks at the pose by the alignment
+  /// as at the pose that was found, and less than half as large a ratio of them is matched. If the
+  /// map has fewer there, the same test at the pose on the other side of `found` decides.
   bool AreExcluded(const TrackerOptions& options, const TrackedFrame& tracked,
                    const MapSnapshot& snapshot, const Map& map, const Revisit& found) const;
 
