@@ -80,7 +80,7 @@ void RunWorld(const LoopWorldOptions& options, Totals* totals) {
 struct SessionScore {
   int num_images = 0, num_localized = 0;
   int num_false = 0;     // off by more than half a metre
-  int first = -1;        // image from which on poses are in the map; -1: none
+  int found = -1;        // image with which the maps were joined; -1: none
   double largest = 0.0;  // error of a position, metres
 };
 
@@ -92,15 +92,17 @@ SessionScore RunSession(LoopWorldOptions options) {
   const LoopWorld world(options);
   Odometry second({}, world.sequence().camera(), {});
   second.SetMap(*first.ShareMaps("first"));
-  for (int i = 0; i < world.num_images(); ++i) second.Process(world.Render(i));
-  const OdometryResult result = second.Finish();
   SessionScore score;
+  for (int i = 0; i < world.num_images(); ++i) {
+    const FrameResult frame = second.Process(world.Render(i));
+    if (score.found < 0 && frame.world == 0) score.found = i;
+  }
+  const OdometryResult result = second.Finish();
   score.num_images = world.num_images();
   const Rigid3 world_from_truth = first_visit.sequence().PoseAt(0).world_from_cam.Inverse();
   for (int i = 0; i < world.num_images(); ++i) {
     const FrameResult& frame = result.frames[i];
     if (frame.world != 0 || !IsEstimated(frame.status)) continue;
-    if (score.first < 0) score.first = i;
     ++score.num_localized;
     const Rigid3 truth = world_from_truth * world.sequence().PoseAt(i).world_from_cam;
     const double error = (truth.translation() - frame.cam_from_world.OriginInSource()).norm();
@@ -112,7 +114,7 @@ SessionScore RunSession(LoopWorldOptions options) {
 
 // Returns the number of sessions with false poses.
 int RunSessions(int num, const std::string& scene, LoopWorldOptions options) {
-  std::printf("scene      seed path returns images localized first false largest error\n");
+  std::printf("scene      seed path returns images localized found false largest error\n");
   int num_false = 0, num_found = 0;
   const uint64_t first = options.seed;
   for (int i = 0; i < num; ++i) {
@@ -124,7 +126,7 @@ int RunSessions(int num, const std::string& scene, LoopWorldOptions options) {
                 SceneKindNames()[static_cast<int>(options.scene)].c_str(),
                 static_cast<unsigned long long>(options.seed),
                 static_cast<unsigned long long>(options.path + 1), options.returns ? "yes" : "no",
-                score.num_images, score.num_localized, score.first, score.num_false, score.largest);
+                score.num_images, score.num_localized, score.found, score.num_false, score.largest);
     std::fflush(stdout);
     num_false += score.num_false > 0 ? 1 : 0;
     num_found += score.num_localized > 0 ? 1 : 0;

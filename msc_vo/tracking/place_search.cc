@@ -123,6 +123,7 @@ void PlaceSearch::Update(const MapSnapshot& snapshot) {
       snapshot.map.keyframes().size() + NumKeyframes(snapshot.inactive_maps);
   if (snapshot.newest_keyframe == newest_ && num_keyframes == num_keyframes_) return;
   index_.Update(snapshot);
+  look_alikes_.Update(snapshot);
   newest_ = snapshot.newest_keyframe;
   num_keyframes_ = num_keyframes;
 }
@@ -155,17 +156,23 @@ std::optional<Revisit> PlaceSearch::FindInInactiveMaps(const TrackedFrame& track
     std::optional<Revisit> found =
         Relocalize(tracked, snapshot.noise_scale, map, *map.FindKeyframe(id));
     if (!found) continue;
-    if (IsAmbiguous(tracked, snapshot.noise_scale, map, *found, places)) return std::nullopt;
-    return found;
+    const std::optional<Revisit> rival =
+        FindRival(tracked, snapshot.noise_scale, map, *found, places);
+    const bool is_certain =
+        !rival && look_alikes_.AreExcluded(options_, tracked, snapshot, map, *found);
+    if (is_certain) return found;
+    look_alikes_.Add(tracked, snapshot.map, map, *found);
+    if (rival) look_alikes_.Add(tracked, snapshot.map, map, *rival);
+    return std::nullopt;
   }
   return std::nullopt;
 }
 
-bool PlaceSearch::IsAmbiguous(const TrackedFrame& tracked, const NoiseScale& noise_scale,
-                              const Map& map, const Revisit& found,
-                              const std::vector<Place>& places) const {
-  constexpr int kMaxRivals = 3;             // bounds the cost
-  constexpr double kMinRivalMatches = 0.8;  // relative to those of the place that was found
+std::optional<Revisit> PlaceSearch::FindRival(const TrackedFrame& tracked,
+                                              const NoiseScale& noise_scale, const Map& map,
+                                              const Revisit& found,
+                                              const std::vector<Place>& places) const {
+  constexpr int kMaxRivals = 3;  // bounds the cost
   const std::set<KeyframeId> neighbours = NeighboursOf(found.matches, found.reference, map);
   const Rigid3 cam_from_world = found.cam_from_reference * map.CamFromWorld(found.reference);
   int num_rivals = 0;
@@ -173,9 +180,8 @@ bool PlaceSearch::IsAmbiguous(const TrackedFrame& tracked, const NoiseScale& noi
     const Keyframe* keyframe = map.FindKeyframe(place.keyframe);
     if (keyframe == nullptr || neighbours.count(place.keyframe) > 0) continue;
     if (++num_rivals > kMaxRivals) break;
-    const std::optional<Revisit> rival = Relocalize(tracked, noise_scale, map, *keyframe);
+    std::optional<Revisit> rival = Relocalize(tracked, noise_scale, map, *keyframe);
     if (!rival) continue;
-    if (Sum(SizesOf(rival->matches)) < kMinRivalMatches * Sum(SizesOf(found.matches))) continue;
     // Poses that differ by no more than the drift between two visits are one place.
     const Rigid3 rival_from_world = rival->cam_from_reference * map.CamFromWorld(rival->reference);
     const bool is_same = IsPossibleDrift(
@@ -183,9 +189,9 @@ bool PlaceSearch::IsAmbiguous(const TrackedFrame& tracked, const NoiseScale& noi
         cam_from_world * map.CamFromWorld(rival->reference).Inverse(), rival->cam_from_reference,
         CameraCovariance(cam_from_world, found.covariance) +
             CameraCovariance(rival_from_world, rival->covariance));
-    if (!is_same) return true;
+    if (!is_same) return rival;
   }
-  return false;
+  return std::nullopt;
 }
 
 std::optional<Revisit> PlaceSearch::FindLoop(const TrackedFrame& tracked,

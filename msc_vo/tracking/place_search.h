@@ -9,6 +9,7 @@
 
 #include "msc_vo/map/snapshot.h"
 #include "msc_vo/place_recognition/place_index.h"
+#include "msc_vo/tracking/look_alikes.h"
 #include "msc_vo/tracking/tracked_frame.h"
 #include "msc_vo/tracking/tracker_options.h"
 
@@ -61,9 +62,9 @@ class PlaceSearch {
   /// Lists the state for a checkpoint. The index has what the next snapshot has.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [options, index, newest, keyframes, order, last_success] =
-        *this;  // all members, or it does not compile
-    archive(order, last_success);
+    auto& [options, index, newest, keyframes, order, look_alikes,
+           last_success] = *this;  // all members, or it does not compile
+    archive(order, look_alikes, last_success);
   }
 
  private:
@@ -72,10 +73,11 @@ class PlaceSearch {
   std::optional<Revisit> FindInInactiveMaps(const TrackedFrame& tracked,
                                             const MapSnapshot& snapshot, double seconds);
   std::optional<Revisit> FindLoop(const TrackedFrame& tracked, const MapSnapshot& snapshot) const;
-  // Whether the frame could as well be at another of the `places` in an inactive map, and no path
-  // links the two.
-  bool IsAmbiguous(const TrackedFrame& tracked, const NoiseScale& noise_scale, const Map& map,
-                   const Revisit& found, const std::vector<Place>& places) const;
+  // The pose of the frame at another of the `places` of an inactive map, if it could as well be
+  // there.
+  std::optional<Revisit> FindRival(const TrackedFrame& tracked, const NoiseScale& noise_scale,
+                                   const Map& map, const Revisit& found,
+                                   const std::vector<Place>& places) const;
   // The pose of the frame by the landmarks around a keyframe of `map`.
   std::optional<Revisit> Relocalize(const TrackedFrame& tracked, const NoiseScale& noise_scale,
                                     const Map& map, const Keyframe& keyframe) const;
@@ -85,7 +87,8 @@ class PlaceSearch {
   // Of the snapshot that the index was updated to.
   KeyframeId newest_ = kNoId;
   size_t num_keyframes_ = 0;
-  TryOrder order_;                                                  // in inactive maps
+  TryOrder order_;  // in inactive maps
+  LookAlikes look_alikes_;
   double last_success_ = -std::numeric_limits<double>::infinity();  // seconds
 };
 

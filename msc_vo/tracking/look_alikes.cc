@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/tracking/look_alikes.h"
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "msc_vo/map/free_space.h"
+#include "msc_vo/map/map_alignment.h"
+#include "msc_vo/map/path_covariance.h"
+#include "msc_vo/matching/local_map.h"
+#include "msc_vo/tracking/frame_pose.h"
+
+namespace msc_vo {
+
+namespace {
+
+Eigen::Vector3d PlaceOf(const PointCandidate& point) { return point.position; }
+
+Eigen::Vector3d PlaceOf(const LineCandidate& line) {
+  return 0.5 * (line.segment.start + line.segment.end);
+}
+
+// The landmarks of a map that should be visible from a pose, without those that a surface in the
+// depth image of the frame occludes.
+LocalMap UnoccludedLandmarks(const Map& map, const Frame& frame, const Rigid3& cam_from_world) {
+  LocalMap local = SelectVisibleLandmarks(map, frame, cam_from_world);
+  const auto is_hidden = [&](const auto& candidate) {
+    const Eigen::Vector3d place = cam_from_world * PlaceOf(candidate);
+    return !ShowsSurface(frame, place) && !IsInFreeSpace(frame, place);
+  };
+  ForEachLandmarkKind([&](auto kind) {
+    auto& candidates = local.Of<typename decltype(kind)::Landmark>();
+    candidates.erase(std::remove_if(candidates.begin(), candidates.end(), is_hidden),
+                     candidates.end());
+  });
+  return local;
+}
+
+// Numbers of landmarks that should be visible from a pose, and that are matched.
+struct PlaceEvidence {
+  int num_visible = 0;
+  int num_matched = 0;
+};
+
+PlaceEvidence EvidenceAt(const TrackerOptions& options, const Frame& frame, const Map& map,
+                         const NoiseScale& noise_scale, const Rigid3& cam_from_world) {
+  const LocalMap local = UnoccludedLandmarks(map, frame, cam_from_world);
+  const std::vector<PoseFactor> no_factors;
+  PoseEstimator estimator(options, map, noise_scale, no_factors);
+  const std::optional<FramePose> pose = estimator.MatchAndEstimate(
+      options.pose, frame, local, options.prediction_radius, cam_from_world);
+  return {Sum(SizesOf(local)), pose ? Sum(SizesOf(LandmarkInliers(pose->matches))) : 0};
+}
+
+// Whether a frame can be at a place.
+enum class PlaceStatus {
+  kPossible,
+  kUnknown,   // the map does not cover its view there
+  kExcluded,  // the frame does not match the map there
+};
+
+PlaceStatus ClassifyPlace(const PlaceEvidence& place, const PlaceEvidence& found) {
+  constexpr double kMinCoverage = 0.5;       // relative to the place that was found
+  constexpr double kMinRelativeRatio = 0.5;  // as HasComparableMatchRatio()
+  if (place.num_visible == 0 || place.num_visible < kMinCoverage * found.num_visible) {
+    return PlaceStatus::kUnknown;
+  }
+  const bool is_excluded = static_cast<double>(place.num_matched) * found.num_visible <
+                           kMinRelativeRatio * found.num_matched * place.num_visible;
+  return is_excluded ? PlaceStatus::kExcluded : PlaceStatus::kPossible;
+}
+
+}  // namespace
+
+void LookAlikes::Add(const TrackedFrame& tracked, const Map& own, const Map& map,
+                     const Revisit& found) {
+  if (!own.KnowsKeyframe(tracked.reference)) return;
+  const auto is_same = [&](const Alignment& alignment) {
+    return IsSame(alignment, tracked, own, map, found);
+  };
+  if (std::any_of(alignments_.begin(), alignments_.end(), is_same)) return;
+  alignments_.push_back({tracked.reference, found.reference,
+                         found.cam_from_reference.Inverse() * tracked.cam_from_reference});
+}
+
+bool LookAlikes::AreExcluded(const TrackerOptions& options, const TrackedFrame& tracked,
+                             const MapSnapshot& snapshot, const Map& map,
+                             const Revisit& found) const {
+  if (!snapshot.map.KnowsKeyframe(tracked.reference)) return alignments_.empty();
+  const Rigid3 found_from_world = found.cam_from_reference * map.CamFromWorld(found.reference);
+  const auto evidence_at = [&](const Rigid3& cam_from_world) {
+    return EvidenceAt(options, *tracked.frame, map, snapshot.noise_scale, cam_from_world);
+  };
+  std::optional<PlaceEvidence> at_found;
+  for (const Alignment& alignment : alignments_) {
+    if (!map.KnowsKeyframe(alignment.other)) continue;
+    if (IsSame(alignment, tracked, snapshot.map, map, found)) continue;
+    if (!at_found) at_found = evidence_at(found_from_world);
+    const Rigid3 aligned_from_world = PoseBy(alignment, tracked, snapshot.map, map);
+    const PlaceStatus status = ClassifyPlace(evidence_at(aligned_from_world), *at_found);
+    if (status == PlaceStatus::kExcluded) continue;
+    if (status == PlaceStatus::kPossible) return false;
+    // In a row of look-alikes, the place that was found has a copy on its other side, too.
+    const Rigid3 opposite_from_world =
+        found_from_world * aligned_from_world.Inverse() * found_from_world;
+    if (ClassifyPlace(evidence_at(opposite_from_world), *at_found) != PlaceStatus::kExcluded)
+      return false;
+  }
+  return true;
+}
+
+void LookAlikes::Update(const MapSnapshot& snapshot) {
+  alignments_.erase(std::remove_if(alignments_.begin(), alignments_.end(),
+                                   [&snapshot](const Alignment& alignment) {
+                                     return !snapshot.map.KnowsKeyframe(alignment.own) ||
+                                            FindMapOf(snapshot.inactive_maps, alignment.other) ==
+                                                nullptr;
+                                   }),
+                    alignments_.end());
+}
+
+bool LookAlikes::IsSame(const Alignment& alignment, const TrackedFrame& tracked, const Map& own,
+                        const Map& map, const Revisit& found) {
+  if (!map.KnowsKeyframe(alignment.other)) return false;
+  const Rigid3 found_from_world = found.cam_from_reference * map.CamFromWorld(found.reference);
+  const Rigid3 aligned_from_world = PoseBy(alignment, tracked, own, map);
+  const Rigid3 world_from_other = map.CamFromWorld(alignment.other).Inverse();
+  const PoseCovariance covariance =
+      2.0 * ViewCovariance() + CameraCovariance(found_from_world, found.covariance) +
+      TransportCovariance(tracked.cam_from_reference,
+                          PathCovariance(own, alignment.own, tracked.reference));
+  return IsPossibleDrift(map, alignment.other, found.reference, found_from_world * world_from_other,
+                         aligned_from_world * world_from_other, covariance);
+}
+
+Rigid3 LookAlikes::PoseBy(const Alignment& alignment, const TrackedFrame& tracked, const Map& own,
+                          const Map& map) {
+  return tracked.cam_from_world * own.CamFromWorld(alignment.own).Inverse() *
+         alignment.other_from_own.Inverse() * map.CamFromWorld(alignment.other);
+}
+
+}  // namespace msc_vo
