@@ -60,7 +60,7 @@ This package contains the static libraries, the headers and the files for
 CMake and pkg-config.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-    "libceres-dev (>= 2.1), libeigen3-dev, libopencv-dev (>= 4.5), libspdlog-dev, libsqlite3-dev, libyaml-cpp-dev, nlohmann-json3-dev")
+    "libceres-dev (>= 2.1), libdeflate-dev, libeigen3-dev, libopencv-dev (>= 4.5), libspdlog-dev, libsqlite3-dev, libturbojpeg0-dev, libyaml-cpp-dev, nlohmann-json3-dev")
 if(TARGET msc_vo_command)
   msc_vo_package(command msc-vo science "RGB-D visual odometry, command" "${about}
 This package contains the command with its manual pages and documentation.")

@@ -142,6 +142,21 @@ py::list LoopsOf(const OdometryResult& result) {
   return loops;
 }
 
+py::list EarlierSessionsOf(const OdometryResult& result) {
+  py::list sessions;
+  for (const SessionPath& session : result.earlier_sessions) {
+    py::list poses;
+    for (const Rigid3& world_from_cam : session.world_from_cam)
+      poses.append(PoseMatrix(world_from_cam));
+    py::dict entry;
+    entry["name"] = session.name;
+    entry["world"] = session.world;
+    entry["world_from_cam"] = poses;
+    sessions.append(entry);
+  }
+  return sessions;
+}
+
 py::object WorldFromAxes(const OdometryResult& result) {
   if (result.axes.state == AxesState::kNone) return py::none();
   return py::cast(Eigen::Matrix3d(result.axes.world_from_axes.toRotationMatrix()));
@@ -257,6 +272,9 @@ void BindResult(py::module_* module) {
       .def_property_readonly(
           "line_axes", &LineAxesOf,
           "(L,) the Manhattan axis (0, 1, 2) that a line is parallel to; -1: none.")
+      .def_property_readonly("earlier_sessions", &EarlierSessionsOf,
+                             "Sessions of the map that the run began with, by world: name, world "
+                             "and world_from_cam, a list of the (4, 4) poses of their keyframes.")
       .def_readonly("map_world", &OdometryResult::map_world,
                     "Number of the world of keyframes, points, lines and axes.")
       .def_readonly("last_window", &OdometryResult::last_window,

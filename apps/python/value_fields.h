@@ -91,13 +91,19 @@ void FieldsOf(Archive& archive, DepthCamera& value) {
 }
 
 template <typename Archive>
+void FieldsOf(Archive& archive, SessionPath& value) {
+  auto& [name, world, world_from_cam] = value;
+  AllFieldsOf(archive, name, world, world_from_cam);
+}
+
+template <typename Archive>
 void FieldsOf(Archive& archive, OdometryResult& value) {
-  auto& [frames, segments, loops, map_world, keyframes, points, lines, axes, noise_scale,
-         depth_sensor, readout_time, readout_time_sigma, calibration, intrinsics, depth_camera,
-         extra_blocks, last_window, num_late_maps] = value;
-  AllFieldsOf(archive, frames, segments, loops, map_world, keyframes, points, lines, axes,
-              noise_scale, depth_sensor, readout_time, readout_time_sigma, calibration, intrinsics,
-              depth_camera, extra_blocks, last_window, num_late_maps);
+  auto& [frames, segments, loops, map_world, keyframes, earlier_sessions, points, lines, axes,
+         noise_scale, depth_sensor, readout_time, readout_time_sigma, calibration, intrinsics,
+         depth_camera, extra_blocks, last_window, num_late_maps] = value;
+  AllFieldsOf(archive, frames, segments, loops, map_world, keyframes, earlier_sessions, points,
+              lines, axes, noise_scale, depth_sensor, readout_time, readout_time_sigma, calibration,
+              intrinsics, depth_camera, extra_blocks, last_window, num_late_maps);
 }
 
 // Errors of a trajectory.

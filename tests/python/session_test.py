@@ -105,6 +105,12 @@ class Session(unittest.TestCase):
         self.assertLess(found, len(sequence) // 2)
         self.assertEqual([segment["is_earlier_session"] for segment in result.segments], [True, False])
         self.assertEqual(result.segments[1]["world"], 0)
+        (session,) = result.earlier_sessions
+        self.assertEqual((session["name"], session["world"]), ("first", 0))
+        positions = np.array(session["world_from_cam"])[:, :3, 3]
+        known = first.finish().keyframes[:, 1:4]
+        apart = np.linalg.norm(positions[:, None] - known[None], axis=2).min(axis=1)
+        self.assertLess(apart.max(), 0.01)
         apart = np.linalg.norm(result.trajectory[:, 1:4] - first.finish().trajectory[:, 1:4], axis=1)
         self.assertLess(apart.max(), 0.01)
 
