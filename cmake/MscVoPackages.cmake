@@ -61,6 +61,13 @@ CMake and pkg-config.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "libceres-dev (>= 2.1), libdeflate-dev, libeigen3-dev, libopencv-dev (>= 4.5), libspdlog-dev, libsqlite3-dev, libturbojpeg0-dev, libyaml-cpp-dev, nlohmann-json3-dev")
+# The image formats of OpenCV are loaded while a program runs, which dpkg-shlibdeps does not see.
+find_library(opencv_codecs NAMES ${MSC_VO_OPENCV_CODECS} NO_CACHE REQUIRED)
+file(REAL_PATH ${opencv_codecs} opencv_codecs)
+execute_process(COMMAND dpkg-query --search ${opencv_codecs} OUTPUT_VARIABLE codecs_package
+                COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX REPLACE ":.*" "" codecs_package "${codecs_package}")
+set(CPACK_DEBIAN_COMMAND_PACKAGE_DEPENDS "${codecs_package}")
 if(TARGET msc_vo_command)
   msc_vo_package(command msc-vo science "RGB-D visual odometry, command" "${about}
 This package contains the command with its manual pages and documentation.")
@@ -79,7 +86,7 @@ This package contains the module msc_vo for Python 3.")
   execute_process(COMMAND ${MSC_VO_PYTHON_INTERPRETER} -c
                   "import sys; v = sys.version_info; print(f'python3 (>= {v[0]}.{v[1]}), python3 (<< {v[0]}.{v[1] + 1})')"
                   OUTPUT_VARIABLE python OUTPUT_STRIP_TRAILING_WHITESPACE)
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "${python}, python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "${python}, python3-numpy, ${codecs_package}")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
       ${PROJECT_SOURCE_DIR}/cmake/debian/postinst ${PROJECT_SOURCE_DIR}/cmake/debian/prerm)
 endif()

@@ -25,7 +25,7 @@ std::string FindModule(const std::string& file) {
   return "";
 }
 
-// The function of a module that makes what it is for.
+// Returns the factory function of a module.
 void* LoadFunction(const std::string& file, const char* function, const std::string& fix) {
   const std::string path = FindModule(file);
   if (path.empty()) throw std::runtime_error("the module " + file + " is not installed: " + fix);

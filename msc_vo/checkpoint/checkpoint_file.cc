@@ -213,7 +213,7 @@ void CheckpointFile::SaveUnsafely(const std::function<void(BinaryWriter&)>& writ
   contents.description = description.bytes();
   BinaryWriter state(journal_.get(), num_state_bytes_);
   if (!write_state(state)) return;
-  num_state_bytes_ = state.bytes().size() + state.bytes().size() / 8;  // of the next, likely
+  num_state_bytes_ = state.bytes().size() + state.bytes().size() / 8;  // expected of the next state
   journal_->Keep(state.objects());
   contents.journal = number_;
   contents.journal_bytes = journal_->size();
@@ -233,17 +233,23 @@ void CheckpointFile::SaveUnsafely(const std::function<void(BinaryWriter&)>& writ
 void CheckpointFile::RemoveRemains() {
   if (!Exists(folder_)) return Remove();
   if (!journal_file_) return;
-  // The next checkpoint begins another journal: some objects of this one may not be in the file.
-  const std::shared_ptr<GrowingBinary> file = std::move(journal_file_);
-  if (journal_->written() == 0) {  // the checkpoint on the disk has another journal
+  if (!journal_->is_written()) {  // the checkpoint on the disk has another journal
+    CloseJournal();
     std::remove(JournalPath(number_).c_str());
     return;
   }
+  journal_->RollBack();
   try {
-    file->Write(journal_->written(), "");
+    journal_file_->Write(journal_->written(), "");
   } catch (const std::exception&) {
     // The remains only take space.
   }
+}
+
+// A file that is removed takes space until it is closed.
+void CheckpointFile::CloseJournal() {
+  journal_.reset();  // writes to the file, too
+  journal_file_.reset();
 }
 
 void CheckpointFile::RemoveJournals(int number) const {
@@ -255,7 +261,7 @@ void CheckpointFile::RemoveJournals(int number) const {
 }
 
 void CheckpointFile::Remove() {
-  journal_file_.reset();
+  CloseJournal();
   number_ = 0;
   if (!IsFolder(folder_)) return;
   std::remove(path().c_str());

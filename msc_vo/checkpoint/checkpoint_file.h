@@ -53,6 +53,7 @@ class CheckpointFile {
   // Removes the journals but that of `number`.
   void RemoveJournals(int number) const;
   void BeginJournal();
+  void CloseJournal();
   // Removes what a checkpoint that could not be written has left.
   void RemoveRemains();
 

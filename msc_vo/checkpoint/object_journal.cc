@@ -22,10 +22,12 @@ uint64_t PaddedSize(uint64_t size) { return (size + kAlignment - 1) / kAlignment
 }  // namespace
 
 ObjectJournal::ObjectJournal(std::string bytes, Sink sink)
-    : num_written_(bytes.size()),
+    : is_written_(true),
+      num_written_(bytes.size()),
+      written_checksum_(Checksum(bytes)),
       sink_(std::move(sink)),
       num_given_(bytes.size()),
-      given_checksum_(Checksum(bytes)),
+      given_checksum_(written_checksum_),
       loaded_bytes_(std::move(bytes)) {}
 
 ObjectId ObjectJournal::Find(const void* object) const {
@@ -74,6 +76,22 @@ void ObjectJournal::Flush() {
   given_checksum_ = checksum();
   num_given_ = size();
   pending_.clear();
+}
+
+void ObjectJournal::SetWritten() {
+  is_written_ = true;
+  num_written_ = size();
+  written_checksum_ = checksum();
+}
+
+void ObjectJournal::RollBack() {
+  for (auto object = objects_.lower_bound(num_written_); object != objects_.end();) {
+    ids_.erase(object->second.pointer.get());
+    object = objects_.erase(object);
+  }
+  pending_.clear();
+  num_given_ = num_written_;
+  given_checksum_ = written_checksum_;
 }
 
 std::shared_ptr<void> ObjectJournal::FindLoaded(ObjectId id, const std::type_info& type) const {

@@ -56,10 +56,13 @@ class ObjectJournal {
   const std::string& pending() const { return pending_; }
   /// Gives them to the sink.
   void Flush();
-  /// The journal is part of a checkpoint that is complete.
-  void SetWritten() { num_written_ = size(); }
-  /// Bytes that are part of one.
+  /// A checkpoint with the journal as it is now is complete.
+  void SetWritten();
+  /// Whether there is one, and the bytes of the journal in it.
+  bool is_written() const { return is_written_; }
   uint64_t written() const { return num_written_; }
+  /// Forgets the objects that were appended since.
+  void RollBack();
 
   // Reading. All throw std::runtime_error if the bytes are not those of a journal.
 
@@ -86,7 +89,9 @@ class ObjectJournal {
   std::unordered_map<const void*, ObjectId> ids_;
   std::map<ObjectId, Object> objects_;
   uint64_t num_kept_bytes_ = 0;
+  bool is_written_ = false;
   uint64_t num_written_ = 0;
+  uint64_t written_checksum_ = kEmptyChecksum;
   Sink sink_;
   uint64_t num_given_ = 0;
   uint64_t given_checksum_ = kEmptyChecksum;

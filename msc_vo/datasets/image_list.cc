@@ -10,8 +10,8 @@
 
 #include <opencv2/core.hpp>
 
-#include "msc_vo/image_files/image_file.h"
 #include "msc_vo/datasets/stamp_precision.h"
+#include "msc_vo/image_files/image_file.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 

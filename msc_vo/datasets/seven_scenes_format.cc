@@ -7,12 +7,12 @@
 #include <filesystem>
 #include <string>
 
-#include "msc_vo/image_files/image_file.h"
 #include "msc_vo/datasets/image_folder.h"
 #include "msc_vo/datasets/name_pairing.h"
 #include "msc_vo/datasets/pose_matrix.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/datasets/tum_folder.h"
+#include "msc_vo/image_files/image_file.h"
 #include "msc_vo/text/files.h"
 
 namespace msc_vo {

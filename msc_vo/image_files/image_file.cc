@@ -3,6 +3,7 @@
 
 #include "msc_vo/image_files/image_file.h"
 
+#include <new>
 #include <optional>
 #include <stdexcept>
 
@@ -35,12 +36,23 @@ cv::Mat DecodeCommonKind(const std::string& bytes, int mode) {
 cv::Mat DecodeImage(const std::string& bytes, int mode) {
   const std::optional<ImageSize> size = SizeInHeader(bytes);
   if (!size || !IsPlausibleSize(*size, bytes.size())) return {};
-  const cv::Mat image = DecodeCommonKind(bytes, mode);
-  return image.empty() ? DecodeWithOpenCv(bytes, mode) : image;
+  try {
+    const cv::Mat image = DecodeCommonKind(bytes, mode);
+    return image.empty() ? DecodeWithOpenCv(bytes, mode) : image;
+  } catch (const cv::Exception&) {  // too little memory, too
+    return {};
+  } catch (const std::bad_alloc&) {
+    return {};
+  }
 }
 
 cv::Mat ReadImageFile(const std::string& path) {
-  return DecodeImage(ReadFile(path, kMaxImageBytes), cv::IMREAD_UNCHANGED);
+  const std::string bytes = ReadFile(path, kMaxImageBytes);
+  try {
+    return DecodeImage(bytes, cv::IMREAD_UNCHANGED);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(path + ": " + error.what());
+  }
 }
 
 ImageSize ReadImageSize(const std::string& path) {

@@ -60,6 +60,10 @@ std::optional<ImageSize> JpegSize(const Bytes& bytes) {
       ++at;
       continue;
     }
+    if (*marker == 0x01 || (*marker >= 0xD0 && *marker <= 0xD7)) {  // without a length
+      at += 2;
+      continue;
+    }
     const bool is_frame =
         *marker >= 0xC0 && *marker <= 0xCF && *marker != 0xC4 && *marker != 0xC8 && *marker != 0xCC;
     if (is_frame) {

@@ -9,6 +9,8 @@
 
 #include <turbojpeg.h>
 
+#include "msc_vo/image_files/image_header.h"
+
 namespace msc_vo {
 
 namespace {
@@ -29,13 +31,15 @@ cv::Mat DecodeJpeg(const std::string& bytes, JpegChannels channels) {
     return {};
   }
   if (colors == TJCS_CMYK || colors == TJCS_YCCK) return {};
+  if (!IsPlausibleSize({width, height}, bytes.size())) return {};
   const bool is_gray = channels == JpegChannels::kGray || colors == TJCS_GRAY;
   cv::Mat image(height, width, is_gray ? CV_8UC1 : CV_8UC3);
   if (tjDecompress2(decoder.get(), data, bytes.size(), image.data, width,
-                    static_cast<int>(image.step), height, is_gray ? TJPF_GRAY : TJPF_BGR, 0) != 0) {
+                    static_cast<int>(image.step), height, is_gray ? TJPF_GRAY : TJPF_BGR, 0) != 0 &&
+      tjGetErrorCode(decoder.get()) != TJERR_WARNING) {
     return {};
   }
-  return image;
+  return image;  // with a warning, as of stray bytes that some cameras write, it is whole
 }
 
 std::string EncodeJpeg(const cv::Mat& gray, int quality) {

@@ -29,9 +29,10 @@ void* FindFunction(const char* name) {
   void* const function = library != nullptr ? dlsym(library, name) : nullptr;
   if (function == nullptr) {
     const char* const reason = dlerror();
-    throw std::runtime_error(std::string("cannot load " MSC_VO_OPENCV_CODECS) +
-                             (reason != nullptr ? std::string(": ") + reason : "") +
-                             "; install the image formats of OpenCV (Debian: libopencv-imgcodecs)");
+    throw std::runtime_error(
+        std::string("cannot load " MSC_VO_OPENCV_CODECS) +
+        (reason != nullptr ? std::string(": ") + reason : "") +
+        "; install the image formats of OpenCV (Debian: libopencv-imgcodecs-dev)");
   }
   return function;
 }
@@ -41,11 +42,7 @@ void* FindFunction(const char* name) {
 cv::Mat DecodeWithOpenCv(const std::string& bytes, int mode) {
   static const auto decode = reinterpret_cast<Decode>(FindFunction(kDecode));
   const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
-  try {
-    return decode(buffer, mode);
-  } catch (const cv::Exception&) {
-    return {};
-  }
+  return decode(buffer, mode);
 }
 
 std::string EncodeWithOpenCv(const std::string& extension, const cv::Mat& image,

@@ -29,7 +29,7 @@ struct Chunk {
 };
 
 // Length, type, data and checksum of the chunk at a position, which moves behind it; none if the
-// file ends before or the checksum is another.
+// file ends before it or its checksum does not match.
 std::optional<Chunk> NextChunk(const std::string& bytes, size_t* at) {
   constexpr size_t kNumOtherBytes = 12;
   if (bytes.size() - *at < kNumOtherBytes) return std::nullopt;
@@ -90,6 +90,7 @@ std::string ReadData(const std::string& bytes, size_t at) {
 std::unique_ptr<uint8_t[]> Inflate(const std::string& data, size_t num_bytes) {
   const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> inflater(
       libdeflate_alloc_decompressor(), &libdeflate_free_decompressor);
+  if (inflater == nullptr) return nullptr;
   std::unique_ptr<uint8_t[]> rows(new uint8_t[num_bytes]);
   if (libdeflate_zlib_decompress(inflater.get(), data.data(), data.size(), rows.get(), num_bytes,
                                  nullptr) != LIBDEFLATE_SUCCESS) {

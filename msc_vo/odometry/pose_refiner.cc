@@ -66,7 +66,10 @@ void PoseRefiner::Add(int index, const TrackedFrame& tracked) {
   frame->readout_time = tracked.frame->readout_time;
   ForEachLandmarkKind([&](auto kind) {
     using L = typename decltype(kind)::Landmark;
-    for (const auto& match : OfKind<L>(tracked.matches)) {
+    const auto& matches = OfKind<L>(tracked.matches);
+    OfKind<L>(*frame).reserve(matches.size());
+    pending.landmarks.Of<L>().reserve(matches.size());
+    for (const auto& match : matches) {
       OfKind<L>(*frame).push_back(FeaturesOf<L>(*tracked.frame)[match.feature]);
       pending.landmarks.Of<L>().push_back(match.id);
     }

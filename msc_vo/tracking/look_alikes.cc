@@ -17,6 +17,10 @@ namespace msc_vo {
 
 namespace {
 
+// Alignments that are remembered, because each of them costs a search in the map for every frame
+// that is found. With more of them, no frame is used until maps have been joined or left.
+constexpr int kMaxAlignments = 16;
+
 Eigen::Vector3d PlaceOf(const PointCandidate& point) { return point.position; }
 
 Eigen::Vector3d PlaceOf(const LineCandidate& line) {
@@ -81,6 +85,7 @@ void LookAlikes::Add(const TrackedFrame& tracked, const Map& own, const Map& map
   const auto is_same = [&](const Alignment& alignment) {
     return IsSame(alignment, tracked, own, map, found);
   };
+  if (static_cast<int>(alignments_.size()) == kMaxAlignments) return;
   if (std::any_of(alignments_.begin(), alignments_.end(), is_same)) return;
   alignments_.push_back({tracked.reference, found.reference,
                          found.cam_from_reference.Inverse() * tracked.cam_from_reference});
@@ -90,6 +95,7 @@ bool LookAlikes::AreExcluded(const TrackerOptions& options, const TrackedFrame& 
                              const MapSnapshot& snapshot, const Map& map,
                              const Revisit& found) const {
   if (!snapshot.map.KnowsKeyframe(tracked.reference)) return alignments_.empty();
+  if (static_cast<int>(alignments_.size()) == kMaxAlignments) return false;  // there may be more
   const Rigid3 found_from_world = found.cam_from_reference * map.CamFromWorld(found.reference);
   const auto evidence_at = [&](const Rigid3& cam_from_world) {
     return EvidenceAt(options, *tracked.frame, map, snapshot.noise_scale, cam_from_world);

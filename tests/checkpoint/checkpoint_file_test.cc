@@ -156,6 +156,31 @@ TEST_F(CheckpointFileTest, LeavesNothingOfACheckpointThatCannotBeWritten) {
   std::filesystem::remove_all(Path("checkpoint/state.bin.partial"));
   Save("run", objects, &file);
   EXPECT_EQ(Read(), TextOf(objects));
+  EXPECT_EQ(ReadFile(Path("checkpoint/objects-1.bin")).substr(0, journal.size()), journal);
+}
+
+TEST_F(CheckpointFileTest, ContinuesTheJournalAfterAFailureInTheMiddle) {
+  CheckpointFile file(Path("checkpoint"));
+  Objects objects = MakeObjects(3);
+  Save("run", objects, &file);
+  const std::string earlier = TextOf(objects);
+  const std::string journal = ReadFile(Path("checkpoint/objects-1.bin"));
+
+  const Objects more = MakeObjects(3000);  // 3 MB, which do not wait in memory
+  EXPECT_THROW(file.Save([](BinaryWriter&) {},
+                         [&](BinaryWriter& archive) -> bool {
+                           archive(more);
+                           EXPECT_GT(ReadFile(Path("checkpoint/objects-1.bin")).size(), 2'000'000u);
+                           throw std::runtime_error("full");
+                         }),
+               std::runtime_error);
+  EXPECT_EQ(ReadFile(Path("checkpoint/objects-1.bin")), journal);
+  EXPECT_EQ(Read(), earlier);
+
+  objects.insert(objects.end(), more.begin(), more.end());
+  Save("run", objects, &file);
+  EXPECT_EQ(Read(), TextOf(objects));
+  EXPECT_EQ(ReadFile(Path("checkpoint/objects-1.bin")).size(), journal.size() + 3000 * 1040u);
 }
 
 TEST_F(CheckpointFileTest, RefusesDamagedAndForeignFiles) {

@@ -10,11 +10,11 @@
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
-#include "msc_vo/image_files/image_file.h"
 #include "msc_vo/datasets/rgbd_decoder.h"
 #include "msc_vo/datasets/sequence.h"
 #include "msc_vo/datasets/sequence_calibration.h"
 #include "msc_vo/datasets/trajectory.h"
+#include "msc_vo/image_files/image_file.h"
 #include "msc_vo/text/files.h"
 
 namespace msc_vo {

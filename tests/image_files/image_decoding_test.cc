@@ -135,6 +135,20 @@ TEST(DecodeJpeg, GivesThePixelsThatOpenCvGives) {
   }
 }
 
+TEST(DecodeJpeg, RefusesMorePixelsThanTheFileCanHold) {
+  std::string jpeg = Encode(".jpg", RandomImage(61, 47, CV_8UC1, 1));
+  jpeg.replace(jpeg.find("\xFF\xC0") + 5, 4, "\x7F\xDC\x7F\xDC");  // 32732 x 32732
+  EXPECT_TRUE(DecodeJpeg(jpeg, JpegChannels::kGray).empty());
+}
+
+TEST(DecodeJpeg, AcceptsStrayBytesAsCamerasWriteThem) {
+  std::string jpeg = Encode(".jpg", RandomImage(61, 47, CV_8UC1, 1));
+  jpeg.insert(jpeg.size() - 2, "xyz");
+  const cv::Mat image = DecodeJpeg(jpeg, JpegChannels::kGray);
+  EXPECT_FALSE(image.empty());
+  EXPECT_TRUE(AreSame(image, DecodeWithOpenCv(jpeg, kGray)));
+}
+
 TEST(DecodeImage, GivesAnEmptyImageForDamage) {
   const std::string png = Encode(".png", RandomImage(16, 12, CV_16UC1, 2));
   const std::string jpeg = Encode(".jpg", RandomImage(16, 12, CV_8UC1, 2));

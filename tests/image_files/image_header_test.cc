@@ -66,6 +66,13 @@ TEST(DecodeImage, RefusesAHeaderThatClaimsMoreThanTheFileCanHold) {
   EXPECT_TRUE(DecodeImage("P5\n16000 16000\n255\n12345", cv::IMREAD_UNCHANGED).empty());
 }
 
+TEST(SizeInHeader, KnowsMarkersOfJpegWithoutALength) {
+  // What follows such a marker is the next one, not a length behind which another header is.
+  std::string jpeg = Encode(".jpg", CV_8UC1);
+  jpeg.insert(2, std::string("\xFF\x01\xFF\xD3", 4));
+  EXPECT_EQ(SizeInHeader(jpeg)->width, 300);
+}
+
 TEST(IsPlausibleSize, AllowsWhatCamerasProduce) {
   EXPECT_TRUE(IsPlausibleSize({640, 480}, 300));
   EXPECT_TRUE(IsPlausibleSize({4096, 3072}, 20000));  // a black one
