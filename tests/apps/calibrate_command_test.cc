@@ -112,8 +112,8 @@ TEST_F(CalibrateCommandTest, KeepsTheReadoutTime) {
 
 TEST_F(CalibrateCommandTest, SaysThatNoSuchLensFits) {
   RenderSequence(Path("wide"),
-                 {"--scene", "room", "--seed", "2", "--frames", "20", "--fps", "5", "--width",
-                  "240", "--focal-length", "100", "--lens=fisheye:-0.15,0.02,0,0", "--untold"});
+                 {"--scene", "slanted", "--frames", "20", "--fps", "5", "--width", "240",
+                  "--focal-length", "120", "--lens=fisheye:-0.15,0.02,0,0", "--untold"});
   const std::string camera = Path("camera.yaml");
   std::vector<std::string> arguments = {"calibrate", Path("wide"), "--output", camera};
   CommandOutcome outcome = RunCommand(arguments);
