@@ -63,8 +63,8 @@ std::shared_ptr<const Frame> RandomFrame(std::mt19937* random) {
   return frame;
 }
 
-// Adds `num_new` landmarks of a keyframe, and observations of those that the keyframes before it
-// have added.
+// Adds `num_new` landmarks that a keyframe observes first, and its observations of the landmarks of
+// the keyframes before it.
 template <typename L, typename Geometry>
 void AddLandmarks(KeyframeId keyframe, int num_new, const Geometry& geometry,
                   std::vector<LandmarkId>* ids, Map* map) {

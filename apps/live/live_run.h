@@ -98,8 +98,8 @@ class LiveRun {
   const MapSnapshot* shown_map_ = nullptr;  // only compared, never read
   KeyframeId shown_keyframe_ = kNoId;
   Clock::time_point map_time_, view_time_;
-  // Of the frames; of those that are not tracked, that of the frame before. Without a reference, a
-  // frame stays where it is.
+  // One per frame, relative to a keyframe. A frame that is not tracked has the pose of the frame
+  // before it; a pose without a keyframe never moves.
   std::vector<ReferencedPose> poses_;
   ReferencedPose pose_;             // of the next frame
   int first_segment_ = kNoSegment;  // of the run; the worlds of earlier runs have smaller numbers

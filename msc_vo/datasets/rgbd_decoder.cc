@@ -32,12 +32,6 @@ std::string SizeText(int width, int height) {
 
 bool IsJpeg(const std::string& bytes) { return bytes.compare(0, 2, "\xFF\xD8") == 0; }
 
-// A JPEG ends with the marker FF D9, which its compressed data cannot contain. Decoders silently
-// fill the missing part of a truncated file with grey.
-bool IsTruncatedJpeg(const std::string& bytes) {
-  return IsJpeg(bytes) && bytes.rfind("\xFF\xD9") == std::string::npos;
-}
-
 std::string ReadImageBytes(const std::string& path, const SequenceEntry& entry) {
   const std::string problem = FileProblem(path, kMaxImageBytes);
   if (!problem.empty()) Fail(path, entry, problem + "; restore the file or remove its line");
@@ -47,13 +41,10 @@ std::string ReadImageBytes(const std::string& path, const SequenceEntry& entry) 
 cv::Mat DecodeStored(const StoredImage& stored, const std::string& path,
                      const SequenceEntry& entry) {
   if (stored.bytes.empty() && !stored.pixels.empty()) return stored.pixels;
-  cv::Mat image;
-  if (!IsTruncatedJpeg(stored.bytes)) {
-    // A JPEG stores luminance in a separate channel of 8 bits; decoding colours and converting them
-    // to grey would take longer and round twice.
-    const int mode = IsJpeg(stored.bytes) ? cv::IMREAD_GRAYSCALE : cv::IMREAD_UNCHANGED;
-    image = DecodeImage(stored.bytes, mode | cv::IMREAD_IGNORE_ORIENTATION);
-  }
+  // A JPEG stores luminance in a separate channel of 8 bits; decoding colours and converting them
+  // to grey would take longer and round twice.
+  const int mode = IsJpeg(stored.bytes) ? cv::IMREAD_GRAYSCALE : cv::IMREAD_UNCHANGED;
+  const cv::Mat image = DecodeImage(stored.bytes, mode | cv::IMREAD_IGNORE_ORIENTATION);
   if (image.empty()) {
     Fail(path, entry,
          "is damaged, truncated or not an image (" + std::to_string(stored.bytes.size()) +

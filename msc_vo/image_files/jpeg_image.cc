@@ -39,7 +39,7 @@ cv::Mat DecodeJpeg(const std::string& bytes, JpegChannels channels) {
       tjGetErrorCode(decoder.get()) != TJERR_WARNING) {
     return {};
   }
-  return image;  // with a warning, as of stray bytes that some cameras write, it is whole
+  return image;  // warnings are of stray bytes, which some cameras write
 }
 
 std::string EncodeJpeg(const cv::Mat& gray, int quality) {

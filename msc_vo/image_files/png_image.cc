@@ -3,14 +3,15 @@
 
 #include "msc_vo/image_files/png_image.h"
 
+#include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <string_view>
 
 #include <libdeflate.h>
 
+#include "msc_vo/image_files/image_header.h"
 #include "msc_vo/image_files/png_filter.h"
 
 namespace msc_vo {
@@ -63,11 +64,7 @@ std::optional<Header> ReadHeader(const Chunk& chunk) {
   const bool is_simple = data[10] == 0 && data[11] == 0 && data[12] == 0;  // not interlaced
   const Header header = {static_cast<int>(BigEndian(data)), static_cast<int>(BigEndian(data + 4)),
                          MatType(data[8], data[9])};
-  constexpr int kMaxSide = 1 << 20;  // 32-bit products of sides and bytes per pixel
-  if (!is_simple || header.type < 0 || header.width < 1 || header.height < 1 ||
-      header.width > kMaxSide || header.height > kMaxSide) {
-    return std::nullopt;
-  }
+  if (!is_simple || header.type < 0) return std::nullopt;
   return header;
 }
 
@@ -135,7 +132,7 @@ cv::Mat DecodePng(const std::string& bytes) {
   if (bytes.compare(0, at, "\x89PNG\r\n\x1A\n") != 0) return {};
   const std::optional<Chunk> first = NextChunk(bytes, &at);
   const std::optional<Header> header = first ? ReadHeader(*first) : std::nullopt;
-  if (!header) return {};
+  if (!header || !IsPlausibleSize({header->width, header->height}, bytes.size())) return {};
   const int pixel_bytes = static_cast<int>(CV_ELEM_SIZE(header->type));
   const size_t row_bytes = static_cast<size_t>(header->width) * pixel_bytes;
   const std::string data = ReadData(bytes, at);

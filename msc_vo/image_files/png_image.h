@@ -12,8 +12,6 @@ namespace msc_vo {
 /// Decodes a PNG file as cameras and datasets write them: grey of 8 or 16 bits, or colour of 8 bits
 /// with or without an alpha channel (in OpenCV's order, blue first), without palette, transparent
 /// colour and interlacing. Returns an empty image for every other file, damaged ones included.
-/// Takes a third to a half of libpng's time, because libdeflate decompresses the whole image at
-/// once.
 cv::Mat DecodePng(const std::string& bytes);
 
 }  // namespace msc_vo

@@ -12,6 +12,7 @@
 #include "msc_vo/map/path_covariance.h"
 #include "msc_vo/matching/local_map.h"
 #include "msc_vo/tracking/frame_pose.h"
+#include "msc_vo/tracking/pose_support.h"
 
 namespace msc_vo {
 
@@ -67,13 +68,14 @@ enum class PlaceStatus {
 };
 
 PlaceStatus ClassifyPlace(const PlaceEvidence& place, const PlaceEvidence& found) {
-  constexpr double kMinCoverage = 0.5;       // relative to the place that was found
-  constexpr double kMinRelativeRatio = 0.5;  // as HasComparableMatchRatio()
+  // Relative to the place that was found: with fewer landmarks in view, the map does not show most
+  // of what the frame shows, so that missing matches prove nothing.
+  constexpr double kMinCoverage = 0.5;
   if (place.num_visible == 0 || place.num_visible < kMinCoverage * found.num_visible) {
     return PlaceStatus::kUnknown;
   }
   const bool is_excluded = static_cast<double>(place.num_matched) * found.num_visible <
-                           kMinRelativeRatio * found.num_matched * place.num_visible;
+                           kMinRelativeMatchRatio * found.num_matched * place.num_visible;
   return is_excluded ? PlaceStatus::kExcluded : PlaceStatus::kPossible;
 }
 
@@ -112,8 +114,8 @@ bool LookAlikes::AreExcluded(const TrackerOptions& options, const TrackedFrame& 
     // In a row of look-alikes, the place that was found has a copy on its other side, too.
     const Rigid3 opposite_from_world =
         found_from_world * aligned_from_world.Inverse() * found_from_world;
-    if (ClassifyPlace(evidence_at(opposite_from_world), *at_found) != PlaceStatus::kExcluded)
-      return false;
+    const PlaceStatus opposite = ClassifyPlace(evidence_at(opposite_from_world), *at_found);
+    if (opposite != PlaceStatus::kExcluded) return false;
   }
   return true;
 }

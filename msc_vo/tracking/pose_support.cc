@@ -44,11 +44,10 @@ bool IsClearlyBetter(const TrackerOptions& options, const PoseSummary& far,
 
 bool HasComparableMatchRatio(const FrameMatches& found, const LocalMap& place,
                              const TrackedFrame& tracked) {
-  constexpr double kMinRelativeRatio = 0.5;  // the direction of view may be another
   const double in_view = Sum(SizesOf(place));
   const double in_view_now = Sum(SizesOf(tracked.visible));
   return Sum(SizesOf(found)) * in_view_now >=
-         kMinRelativeRatio * Sum(SizesOf(tracked.matches)) * in_view;
+         kMinRelativeMatchRatio * Sum(SizesOf(tracked.matches)) * in_view;
 }
 
 bool ContradictsDepth(const TrackedFrame& tracked, const Map& map) {

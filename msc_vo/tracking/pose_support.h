@@ -20,6 +20,10 @@ bool IsClear(const FramePose& pose, const LocalMap& candidates);
 bool IsClearlyBetter(const TrackerOptions& options, const PoseSummary& far,
                      const PoseSummary& near);
 
+/// Smallest ratio of matched to visible landmarks at a place, relative to the ratio at the place
+/// that it is compared with: the same place may be seen from another direction.
+constexpr double kMinRelativeMatchRatio = 0.5;
+
 /// Whether the ratio of the inliers `found` to the landmarks in view at `place` is at least half of
 /// the same ratio in the current map, where the frame is `tracked`. At another place that looks
 /// alike it is lower (docs/lab/tracking.md).

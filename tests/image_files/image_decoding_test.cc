@@ -153,7 +153,10 @@ TEST(DecodeImage, GivesAnEmptyImageForDamage) {
   const std::string png = Encode(".png", RandomImage(16, 12, CV_16UC1, 2));
   const std::string jpeg = Encode(".jpg", RandomImage(16, 12, CV_8UC1, 2));
   EXPECT_TRUE(DecodeImage(png.substr(0, png.size() / 2), cv::IMREAD_UNCHANGED).empty());
-  EXPECT_TRUE(DecodeImage(jpeg.substr(0, 60), kGray).empty());
+  for (size_t length = 0; length + 1 < jpeg.size(); ++length) {
+    EXPECT_TRUE(DecodeImage(jpeg.substr(0, length), kGray).empty()) << length;
+    EXPECT_TRUE(DecodeImage(jpeg.substr(0, length), cv::IMREAD_COLOR).empty()) << length;
+  }
   EXPECT_TRUE(DecodeImage("", cv::IMREAD_UNCHANGED).empty());
 }
 

@@ -42,6 +42,18 @@ TEST(SharedTableTest, FindsIds) {
   EXPECT_EQ(table.back().first, 180);
 }
 
+TEST(SharedTableTest, FindsAscendingIdsByACursor) {
+  const Table table = MakeTable();
+  Table::Cursor cursor(table);
+  for (int64_t id = -3; id < 200; id += 1) {
+    const int* value = cursor.Find(id);
+    ASSERT_EQ(value, table.Find(id)) << id;
+    EXPECT_EQ(cursor.Find(id), value) << id;
+  }
+  const Table empty;
+  EXPECT_EQ(Table::Cursor(empty).Find(3), nullptr);
+}
+
 TEST(SharedTableTest, FindsNothingIfEmpty) {
   Table table;
   EXPECT_TRUE(table.empty());

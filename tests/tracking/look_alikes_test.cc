@@ -103,6 +103,14 @@ TEST_F(LookAlikesTest, RemainPossibleBehindSurfacesOfTheFrame) {
   EXPECT_FALSE(AreExcluded(20.0));
 }
 
+TEST_F(LookAlikesTest, MayBeMoreThanAreRemembered) {
+  AddPlace(&other_world_, 20.0);
+  EXPECT_TRUE(AreExcluded(20.0));
+  bool are_excluded = true;
+  for (int i = 0; i < 20; ++i) are_excluded = AreExcluded(20.0 + 0.2 * i);
+  EXPECT_FALSE(are_excluded);
+}
+
 TEST_F(LookAlikesTest, AreForgottenWithTheirMaps) {
   EXPECT_FALSE(AreExcluded(20.0));
   look_alikes_.Update(snapshot_);  // has no inactive map
