@@ -11,6 +11,7 @@
 
 #include "apps/cli/sequence_arguments.h"
 #include "msc_vo/datasets/recording_file.h"
+#include "msc_vo/ros_bag/bag_file.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
@@ -23,7 +24,7 @@ namespace fs = std::filesystem;
 // Whether the argument is a file that is no recording, video or archive.
 bool IsList(const std::string& path) {
   const std::string extension = Lowercase(fs::path(path).extension().string());
-  const bool is_recording = extension == ".bag" || extension == ".oni" || IsSequenceFile(path);
+  const bool is_recording = extension == ".oni" || IsBag(path) || IsSequenceFile(path);
   return !is_recording && FileProblem(path).empty();
 }
 

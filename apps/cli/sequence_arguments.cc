@@ -14,6 +14,7 @@
 #include "msc_vo/datasets/sequence.h"
 #include "msc_vo/datasets/sequence_calibration.h"
 #include "msc_vo/openni/openni_source.h"
+#include "msc_vo/ros_bag/bag_file.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
@@ -23,19 +24,16 @@ namespace {
 
 constexpr char kCameraPrefix[] = "openni2:";
 
-bool EndsWith(const std::string& text, const std::string& ending) {
-  return text.size() > ending.size() &&
-         Lowercase(text.substr(text.size() - ending.size())) == ending;
+bool IsOni(const std::string& path) {
+  return Lowercase(std::filesystem::path(path).extension().string()) == ".oni" && !IsFolder(path);
 }
-
-bool IsBag(const std::string& path) { return EndsWith(path, ".bag") && !IsFolder(path); }
-bool IsOni(const std::string& path) { return EndsWith(path, ".oni") && !IsFolder(path); }
 
 SequenceIndex OpenSource(const SequenceArguments& arguments) {
   const std::string& source = arguments.directory;
   const bool is_bag = IsBag(source);
   if (!is_bag && (!arguments.topics.color.empty() || !arguments.topics.depth.empty())) {
-    throw std::runtime_error(source + ": --color-topic and --depth-topic are for ROS bags (.bag)");
+    throw std::runtime_error(
+        source + ": --color-topic and --depth-topic are for ROS bags (.bag, .db3, .mcap)");
   }
   if (IsLiveCamera(source)) return OpenOpenNiCamera(source.substr(sizeof(kCameraPrefix) - 1));
   if (is_bag) return OpenBag(source, arguments.topics);
@@ -49,8 +47,9 @@ bool IsLiveCamera(const std::string& directory) { return directory.rfind(kCamera
 
 CLI::Option* AddSequenceArguments(CLI::App* command, SequenceArguments* arguments) {
   CLI::Option* sequence = command->add_option("sequence", arguments->directory,
-                                              "Folder with an RGB-D sequence, ROS bag (.bag), "
-                                              "OpenNI2 recording (.oni) or camera (openni2:)");
+                                              "Folder with an RGB-D sequence, ROS bag (.bag, .db3, "
+                                              ".mcap or their folder), OpenNI2 recording (.oni) "
+                                              "or camera (openni2:)");
   AddLayoutArguments(command, arguments);
   return sequence;
 }
@@ -93,7 +92,8 @@ std::string SequenceName(const std::string& directory) {
   if (error) path = directory;  // opening the sequence reports the error
   const std::filesystem::path name =
       path.has_filename() ? path.filename() : path.parent_path().filename();
-  if (IsBag(directory) || IsOni(directory)) return name.stem().string();
+  if (IsBag(directory)) return BagName(directory);
+  if (IsOni(directory)) return name.stem().string();
   return name.empty() ? "root" : name.string();
 }
 

@@ -15,18 +15,14 @@ namespace msc_vo {
 
 namespace {
 
-constexpr char kConvert[] =
-    "convert it to a bag of ROS 1, for example with rosbags-convert of the Python package rosbags, "
-    "and give the .bag file";
 constexpr char kExport[] =
     "export its colour and depth images to rgb/ and depth/, as files named by their times, and "
     "give "
     "the folder that holds both";
 constexpr char kUnpack[] = "unpack it and give the folder of the sequence";
 constexpr char kCommandReads[] =
-    "the command msc_vo reads it if its name ends with .bag or .oni; msc_vo record makes a folder "
-    "of "
-    "it";
+    "the command msc_vo reads it if its name ends with .bag, .db3, .mcap or .oni; msc_vo record "
+    "makes a folder of it";
 constexpr char kGiveFolder[] = "give the folder of the sequence";
 
 // A kind of file: its first bytes, or the endings of its name if they are empty.
@@ -48,9 +44,9 @@ constexpr FileKind kKinds[] = {
      "the folder"},
     {"", 0, " .klg ", "a log of Kintinuous or ElasticFusion", kExport},
     {"", 0, " .npz .npy .pkl .mat ", "a file of arrays", kExport},
-    {"SQLite format 3\0"sv, 0, "", "a bag of ROS 2 (an SQLite database)", kConvert},
-    {"\x89MCAP"sv, 0, "", "an MCAP recording, as of ROS 2", kConvert},
-    {"", 0, " .db3 .mcap ", "a bag of ROS 2", kConvert},
+    {"SQLite format 3\0"sv, 0, "", "an SQLite database, as a bag of ROS 2", kCommandReads},
+    {"\x89MCAP"sv, 0, "", "an MCAP recording, as of ROS 2", kCommandReads},
+    {"", 0, " .db3 .mcap ", "a bag of ROS 2", kCommandReads},
     {"#ROSBAG V"sv, 0, "", "a bag of ROS 1", kCommandReads},
     {"", 0, " .oni ", "a recording of OpenNI2", kCommandReads},
     {"ftyp"sv, 4, "", "a video", kExport},

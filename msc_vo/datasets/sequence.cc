@@ -145,7 +145,11 @@ void RefuseToOverwriteSequence(const SequenceIndex& index, const std::string& fi
   const auto is_folder = [&](const std::string& path) {
     return fs::equivalent(folder, path, error);
   };
-  if (index.container) return RefuseToOverwrite({index.directory}, file);
+  if (index.container) {
+    return RefuseToOverwrite(
+        IsFolder(index.directory) ? ListFolder(index.directory) : std::vector{index.directory},
+        file);
+  }
   std::vector<std::string> inputs;
   if (index.calibration) inputs.push_back(index.calibration->origin);
   for (const SequenceEntry& entry : index.entries) {

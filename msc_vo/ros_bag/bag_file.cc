@@ -3,90 +3,79 @@
 
 #include "msc_vo/ros_bag/bag_file.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
-#include <map>
 #include <stdexcept>
-
-#include <ros/serialization.h>
+#include <string_view>
 
 #include "msc_vo/datasets/recording_file.h"
-#include "msc_vo/ros_bag/ros_message.h"
+#include "msc_vo/ros_bag/bag_folder.h"
+#include "msc_vo/ros_bag/ros1_bag.h"
+#include "msc_vo/ros_bag/ros2_bag.h"
 #include "msc_vo/text/files.h"
+#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 
 namespace {
 
-constexpr char kMagic[] = "#ROSBAG V2.0";
-
-[[noreturn]] void FailUnindexed(const std::string& path) {
-  throw std::runtime_error(
-      path +
-      ": the bag has no index, because its recording was cut off; repair a copy "
-      "of it with 'rosbag reindex'");
+std::string EndingOf(const std::string& path) {
+  return Lowercase(std::filesystem::path(path).extension().string());
 }
 
-bool HasMagic(const std::string& path) {
+bool IsRos2File(const std::string& path) {
+  std::string ending = EndingOf(path);
+  if (ending == ".zstd") ending = EndingOf(path.substr(0, path.size() - ending.size()));
+  return ending == ".db3" || ending == ".mcap";
+}
+
+std::string FirstBytes(const std::string& path) {
+  std::string bytes(16, '\0');
   std::ifstream file(path, std::ios::binary);
-  std::string bytes(sizeof(kMagic) - 1, '\0');
-  return file.read(bytes.data(), static_cast<std::streamsize>(bytes.size())) && bytes == kMagic;
-}
-
-std::string BytesOf(const rosbag::MessageInstance& message) {
-  std::string bytes(message.size(), '\0');
-  ros::serialization::OStream stream(reinterpret_cast<uint8_t*>(bytes.data()),
-                                     static_cast<uint32_t>(bytes.size()));
-  message.write(stream);
+  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<size_t>(file.gcount()));
   return bytes;
 }
 
 }  // namespace
 
-BagFile::BagFile(const std::string& path) : path_(path), bag_(std::make_unique<rosbag::Bag>()) {
-  const std::string problem = FileProblem(path, UINTMAX_MAX);
-  if (!problem.empty()) throw std::runtime_error(path + ": " + problem);
-  const std::string file = HasMagic(path) ? "" : DescribeFile(path);
-  if (!file.empty()) throw std::runtime_error(path + " " + file);
-  try {
-    bag_->open(path, rosbag::bagmode::Read);
-    rosbag::View all(*bag_);
-    std::map<std::string, std::string> types;
-    for (const rosbag::ConnectionInfo* connection : all.getConnections()) {
-      types[connection->topic] = connection->datatype;
-    }
-    for (const auto& [name, type] : types) topics_.push_back({name, type});
-  } catch (const rosbag::BagUnindexedException&) {
-    FailUnindexed(path);
-  } catch (const std::exception& error) {
-    throw std::runtime_error(path + ": cannot be read as a bag of ROS 1 (" + kMagic +
-                             "): " + error.what());
-  }
+std::string WithoutMsg(std::string type) {
+  const size_t at = type.find("/msg/");
+  return at == std::string::npos ? type : type.erase(at, 4);
 }
 
-int BagFile::Select(const std::string& topic) {
+void BagFile::SetTopics(std::vector<BagTopic> topics) {
+  const auto earlier = [](const BagTopic& a, const BagTopic& b) { return a.name < b.name; };
+  std::stable_sort(topics.begin(), topics.end(), earlier);
+  const auto equal = [](const BagTopic& a, const BagTopic& b) { return a.name == b.name; };
+  topics.erase(std::unique(topics.begin(), topics.end(), equal), topics.end());
+  topics_ = std::move(topics);
+}
+
+const BagTopic* BagFile::FindTopic(const std::string& name) const {
+  const auto found = std::find_if(topics_.begin(), topics_.end(),
+                                  [&](const BagTopic& topic) { return topic.name == name; });
+  return found == topics_.end() ? nullptr : &*found;
+}
+
+const BagTopic& BagFile::Require(const std::string& name) const {
+  const BagTopic* topic = FindTopic(name);
+  if (topic == nullptr) throw std::invalid_argument("BagFile: no topic " + name);
+  return *topic;
+}
+
+int BagFile::NumMessages(const std::string& topic) const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  Selection selection;
-  selection.topic = topic;
-  selection.view = std::make_unique<rosbag::View>(*bag_, rosbag::TopicQuery(topic));
-  for (const rosbag::MessageInstance& message : *selection.view) {
-    selection.messages.push_back(message);
-  }
-  selections_.push_back(std::move(selection));
-  return static_cast<int>(selections_.back().messages.size());
-}
-
-const BagFile::Selection& BagFile::Find(const std::string& topic) const {
-  for (const Selection& selection : selections_) {
-    if (selection.topic == topic) return selection;
-  }
-  throw std::invalid_argument("BagFile: " + topic + " is not selected");
+  return DoCount(Require(topic));
 }
 
 std::string BagFile::Read(const std::string& topic, int i) const {
+  const BagTopic& found = Require(topic);
   const std::lock_guard<std::mutex> lock(mutex_);
   try {
-    return BytesOf(Find(topic).messages.at(static_cast<size_t>(i)));
+    return DoRead(found, i);
   } catch (const std::exception& error) {
     throw std::runtime_error(NameOf(topic, i) + ": " + error.what());
   }
@@ -94,22 +83,52 @@ std::string BagFile::Read(const std::string& topic, int i) const {
 
 double BagFile::ReceiveTime(const std::string& topic, int i) const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const ros::Time time = Find(topic).messages.at(static_cast<size_t>(i)).getTime();
-  return SecondsOf(time.sec, time.nsec);
-}
-
-std::string BagFile::ReadFirst(const std::string& topic) const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  rosbag::View view(*bag_, rosbag::TopicQuery(topic));
-  try {
-    return view.begin() == view.end() ? "" : BytesOf(*view.begin());
-  } catch (const std::exception& error) {
-    throw std::runtime_error(NameOf(topic, 0) + ": " + error.what());
-  }
+  return DoReceiveTime(Require(topic), i);
 }
 
 std::string BagFile::NameOf(const std::string& topic, int i) const {
   return path_ + ":" + topic + ", message " + std::to_string(i);
+}
+
+bool IsBag(const std::string& path) {
+  if (!IsFolder(path)) return EndingOf(path) == ".bag" || IsRos2File(path);
+  if (!FolderProblem(path).empty()) return false;
+  // Folders in it may be those of a sequence, beside which the bag lies that it came from.
+  const std::vector<std::string> entries = ListFolder(path);
+  return std::any_of(entries.begin(), entries.end(), IsRos2File) &&
+         (HasEntry(path + "/metadata.yaml") ||
+          std::none_of(entries.begin(), entries.end(), IsFolder));
+}
+
+std::string BagName(const std::string& path) {
+  std::filesystem::path name = std::filesystem::path(path).lexically_normal();
+  if (!name.has_filename()) name = name.parent_path();  // "a/kitchen/"
+  name = name.filename();
+  if (IsFolder(path)) return name.string();
+  if (EndingOf(name.string()) == ".zstd") name = name.stem();
+  return name.stem().string();
+}
+
+std::unique_ptr<BagFile> OpenBagFile(const std::string& path) {
+  if (IsFolder(path)) return OpenBagFolder(path);
+  const std::string problem = FileProblem(path, UINTMAX_MAX);
+  if (!problem.empty()) throw std::runtime_error(path + ": " + problem);
+  using std::string_view_literals::operator""sv;
+  const std::string bytes = FirstBytes(path);
+  const auto begins_with = [&](std::string_view magic) {
+    return bytes.compare(0, magic.size(), magic) == 0;
+  };
+  if (begins_with("SQLite format 3\0"sv) || begins_with("\x89MCAP"sv) ||
+      (begins_with("\x28\xb5\x2f\xfd"sv) && IsRos2File(path))) {
+    return OpenRos2Bag(path);
+  }
+  if (begins_with("#ROSBAG V2.0"sv)) return OpenRos1Bag(path);
+  const std::string file = DescribeFile(path);
+  throw std::runtime_error(
+      file.empty() ? path +
+                         ": is no bag that can be read: neither one of ROS 1 (#ROSBAG V2.0) nor "
+                         "an SQLite or MCAP file of ROS 2"
+                   : path + " " + file);
 }
 
 }  // namespace msc_vo

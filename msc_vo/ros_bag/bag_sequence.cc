@@ -3,7 +3,6 @@
 
 #include "msc_vo/ros_bag/bag_sequence.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 
@@ -13,6 +12,7 @@
 #include "msc_vo/logging/logger.h"
 #include "msc_vo/ros_bag/bag_file.h"
 #include "msc_vo/ros_bag/bag_stamps.h"
+#include "msc_vo/ros_bag/realsense_camera.h"
 #include "msc_vo/ros_bag/topic_choice.h"
 #include "msc_vo/text/files.h"
 
@@ -29,7 +29,7 @@ constexpr double kUnitsOfMetres = 5000.0;       // if depth in metres is written
 // The images of two topics of a bag.
 class BagContainer : public ImageContainer {
  public:
-  BagContainer(std::shared_ptr<BagFile> bag, ImageTopic color, ImageTopic depth)
+  BagContainer(std::shared_ptr<const BagFile> bag, ImageTopic color, ImageTopic depth)
       : bag_(std::move(bag)), color_(std::move(color)), depth_(std::move(depth)) {}
 
   StoredImage ReadColor(int index) const override { return ReadImage(color_, index); }
@@ -37,19 +37,24 @@ class BagContainer : public ImageContainer {
 
  private:
   StoredImage ReadImage(const ImageTopic& topic, int index) const {
-    const std::string bytes = bag_->Read(topic.name, index);
-    try {
-      return topic.is_compressed ? ConvertRosImage(ParseRosCompressedImage(bytes))
-                                 : ConvertRosImage(ParseRosImage(bytes));
-    } catch (const std::runtime_error& error) {
-      throw std::runtime_error(bag_->NameOf(topic.name, index) + ": " + error.what());
-    }
+    return bag_->Parse(topic.name, index, [&](std::string_view bytes, RosSerialization form) {
+      return topic.is_compressed ? ConvertRosImage(ParseRosCompressedImage(bytes, form))
+                                 : ConvertRosImage(ParseRosImage(bytes, form));
+    });
   }
 
-  std::shared_ptr<BagFile> bag_;
+  std::shared_ptr<const BagFile> bag_;
   ImageTopic color_;
   ImageTopic depth_;
 };
+
+// What the first message of a topic with images holds.
+RosImageKind KindOf(const BagFile& bag, const BagTopic& topic) {
+  return bag.Parse(topic.name, 0, [&](std::string_view bytes, RosSerialization form) {
+    return topic.type == kCompressedType ? KindOfFormat(ParseRosCompressedImage(bytes, form).format)
+                                         : KindOfEncoding(ParseRosImage(bytes, form).encoding);
+  });
+}
 
 // All topics with images and what their first message holds.
 std::vector<ImageTopic> FindImageTopics(const BagFile& bag) {
@@ -57,11 +62,8 @@ std::vector<ImageTopic> FindImageTopics(const BagFile& bag) {
   for (const BagTopic& topic : bag.topics()) {
     const bool is_compressed = topic.type == kCompressedType;
     if (topic.type != kImageType && !is_compressed) continue;
-    const std::string bytes = bag.ReadFirst(topic.name);
-    if (bytes.empty()) continue;
-    const RosImageKind kind = is_compressed ? KindOfFormat(ParseRosCompressedImage(bytes).format)
-                                            : KindOfEncoding(ParseRosImage(bytes).encoding);
-    topics.push_back({topic.name, kind, is_compressed});
+    if (bag.NumMessages(topic.name) == 0) continue;
+    topics.push_back({topic.name, KindOf(bag, topic), is_compressed});
   }
   return topics;
 }
@@ -100,14 +102,14 @@ ImageTopic ChooseTopic(const std::string& path, const std::vector<ImageTopic>& a
 }
 
 // Names all messages of a topic and reads their times, in the order of recording.
-std::vector<MessageTimes> ListImages(const ImageTopic& topic, BagFile* bag,
+std::vector<MessageTimes> ListImages(const ImageTopic& topic, const BagFile& bag,
                                      std::vector<ListedImage>* images) {
   std::vector<MessageTimes> times;
-  const int count = bag->Select(topic.name);
+  const int count = bag.NumMessages(topic.name);
   for (int i = 0; i < count; ++i) {
-    images->push_back({0.0, bag->NameOf(topic.name, i), "", i});
+    images->push_back({0.0, bag.NameOf(topic.name, i), "", i});
     times.push_back(
-        {ParseRosHeader(bag->Read(topic.name, i)).stamp, bag->ReceiveTime(topic.name, i)});
+        {bag.Parse(topic.name, i, ParseRosHeader).stamp, bag.ReceiveTime(topic.name, i)});
   }
   return times;
 }
@@ -116,21 +118,24 @@ void ReadCamera(const BagFile& bag, const ImageTopic& color, const ImageTopic& d
                 SequenceIndex* index) {
   for (const ImageTopic* topic : {&color, &depth}) {
     const std::string name = CameraInfoTopicOf(topic->name);
-    const auto found =
-        std::find_if(bag.topics().begin(), bag.topics().end(), [&](const BagTopic& candidate) {
-          return candidate.name == name && candidate.type == kCameraInfoType;
-        });
-    if (found == bag.topics().end()) continue;
-    const std::string bytes = bag.ReadFirst(name);
-    if (bytes.empty()) continue;
+    const BagTopic* info = bag.FindTopic(name);
+    if (info == nullptr || info->type != kCameraInfoType || bag.NumMessages(name) == 0) continue;
     std::string problem;
-    index->calibration = CalibrationFrom(ParseRosCameraInfo(bytes), IsRectified(color), &problem);
+    index->calibration =
+        CalibrationFrom(bag.Parse(name, 0, ParseRosCameraInfo), IsRectified(color), &problem);
     if (index->calibration) {
       index->calibration->origin =
           bag.path() + ":" + name + (IsRectified(color) ? " for rectified images" : "");
-      return;
+      break;
     }
     index->warnings.push_back(name + " gives no calibration: " + problem);
+  }
+  if (!index->calibration) return;
+  std::string problem;
+  index->calibration->depth_camera = RealSenseDepthCamera(bag, color.name, depth.name, &problem);
+  if (!problem.empty()) {
+    index->warnings.push_back("how the depth images lie to the colour images is not known: " +
+                              problem);
   }
 }
 
@@ -145,19 +150,17 @@ void ChooseCamera(SequenceIndex* index) {
 }
 
 void ReadGroundTruth(const std::string& path, SequenceIndex* index) {
-  const std::filesystem::path bag = path;
   const std::string truth =
-      (bag.parent_path() / (bag.stem().string() + "-groundtruth.txt")).string();
+      (std::filesystem::path(path).parent_path() / (BagName(path) + "-groundtruth.txt")).string();
   if (HasEntry(truth)) ReadGroundTruthFile(truth, WholeStamps::kTimes, index);
 }
 
 }  // namespace
 
-bool HasRosBag() { return true; }
-
 SequenceIndex OpenBag(const std::string& path, const BagTopics& topics) {
-  const auto bag = std::make_shared<BagFile>(path);
+  const std::shared_ptr<const BagFile> bag = OpenBagFile(path);
   SequenceIndex index;
+  index.warnings = bag->warnings();
   index.format = "ros-bag";
   index.directory = path;
   const std::vector<ImageTopic> all = FindImageTopics(*bag);
@@ -167,8 +170,8 @@ SequenceIndex OpenBag(const std::string& path, const BagTopics& topics) {
                                        "colour", &index.warnings);
   ImageLists images;
   TopicTimes times;
-  times.color = ListImages(color, bag.get(), &images.color);
-  times.depth = ListImages(depth, bag.get(), &images.depth);
+  times.color = ListImages(color, *bag, &images.color);
+  times.depth = ListImages(depth, *bag, &images.depth);
   StampImages(times, &images, &index.warnings);
   PairByTime(images, MaxPairDifference(images), &index);
   OrderEntries(&index);
@@ -176,7 +179,9 @@ SequenceIndex OpenBag(const std::string& path, const BagTopics& topics) {
   index.container = std::make_shared<BagContainer>(bag, color, depth);
   const StoredImage first = index.container->ReadDepth(index.entries.front().depth_index);
   const bool is_metres = first.bytes.empty() && first.pixels.type() == CV_32FC1;
-  index.depth_scale = is_metres ? kUnitsOfMetres : kUnitsOfMillimetres;
+  index.depth_scale = is_metres
+                          ? kUnitsOfMetres
+                          : RealSenseDepthScale(*bag, depth.name).value_or(kUnitsOfMillimetres);
   ReadCamera(*bag, color, depth, &index);
   ChooseCamera(&index);
   ReadGroundTruth(path, &index);

@@ -12,6 +12,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "msc_vo/image_files/image_file.h"
+#include "msc_vo/ros_bag/rvl.h"
 
 namespace msc_vo {
 
@@ -86,33 +87,41 @@ StoredImage DecodeCompressedDepth(const RosCompressedImage& image) {
     throw std::runtime_error("compressed depth image without data");
   }
   std::memcpy(&header, image.data.data(), sizeof(header));
-  if (image.format.find("rvl") != std::string::npos) {
-    throw std::runtime_error("compressed depth with the codec RVL; convert the topic to 16UC1");
-  }
-  const std::string png(image.data.substr(sizeof(header)));
-  const cv::Mat raw = DecodeImage(png, cv::IMREAD_UNCHANGED);
-  if (raw.type() != CV_16UC1) throw std::runtime_error("damaged compressed depth image");
+  const std::string_view encoded = image.data.substr(sizeof(header));
   const bool is_metres = image.format.compare(0, 5, "32FC1") == 0;
-  return is_metres ? StoredImage{"", Dequantise(raw, header)} : StoredImage{png, {}};
+  const bool is_rvl = image.format.find("rvl") != std::string::npos;
+  const cv::Mat raw =
+      is_rvl ? DecodeRvl(encoded) : DecodeImage(std::string(encoded), cv::IMREAD_UNCHANGED);
+  if (raw.type() != CV_16UC1) throw std::runtime_error("damaged compressed depth image");
+  if (is_metres) return {"", Dequantise(raw, header)};
+  return is_rvl ? StoredImage{"", raw} : StoredImage{std::string(encoded), {}};
+}
+
+// The model in the words of ROS. Recordings of the RealSense viewer have those of its library,
+// which projects with all three of Brown and Conrady alike.
+std::string ModelOf(const RosCameraInfo& info) {
+  const std::string& model = info.distortion_model;
+  if (model == "Kannala Brandt4") return kEquidistant;
+  return model.find("Brown Conrady") == std::string::npos ? model : "plumb_bob";
 }
 
 // Lens of a CameraInfo; none if its model is unknown or has other coefficients.
 std::optional<LensDistortion> RosLens(const RosCameraInfo& info) {
+  const std::string model = ModelOf(info);
   LensDistortion lens;
   size_t size = 5;
   const auto has_beyond = [&info](size_t count) {
     return std::any_of(info.d.begin() + static_cast<long>(std::min(count, info.d.size())),
                        info.d.end(), [](double k) { return k != 0.0; });
   };
-  if (info.distortion_model == kEquidistant) {
+  if (model == kEquidistant) {
     lens.model = LensModel::kFisheye;
     size = 4;
-    if (info.d.size() != size) return std::nullopt;
-  } else if (info.distortion_model == "rational_polynomial" && has_beyond(size)) {
+    if (info.d.size() < size) return std::nullopt;
+  } else if (model == "rational_polynomial" && has_beyond(size)) {
     lens.model = LensModel::kRational;
     size = 8;
-  } else if (info.distortion_model != "plumb_bob" &&
-             info.distortion_model != "rational_polynomial") {
+  } else if (model != "plumb_bob" && model != "rational_polynomial") {
     return std::nullopt;
   }
   if (has_beyond(size)) return std::nullopt;
@@ -184,7 +193,7 @@ std::optional<Calibration> CalibrationFrom(const RosCameraInfo& info, bool is_re
     return std::nullopt;
   }
   const bool is_zero = std::all_of(info.d.begin(), info.d.end(), [](double k) { return k == 0.0; });
-  if (is_rectified || (is_zero && info.distortion_model != kEquidistant)) return calibration;
+  if (is_rectified || (is_zero && ModelOf(info) != kEquidistant)) return calibration;
   const std::optional<LensDistortion> lens = RosLens(info);
   if (!lens) {
     *problem = "the lens model " + info.distortion_model + " with " +

@@ -26,7 +26,7 @@ RosImageKind KindOfFormat(const std::string& format);
 StoredImage ConvertRosImage(const RosImage& image);
 
 /// Returns a compressed colour image as it is, and a compressed depth image (compressedDepth of
-/// image_transport, PNG) decoded. Throws std::runtime_error if it is damaged.
+/// image_transport, PNG or RVL) decoded. Throws std::runtime_error if it is damaged.
 StoredImage ConvertRosImage(const RosCompressedImage& image);
 
 /// Returns the calibration of a CameraInfo for images as they come from the camera, or, if

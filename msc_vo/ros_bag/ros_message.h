@@ -8,13 +8,24 @@
 #include <string_view>
 #include <vector>
 
+#include "msc_vo/geometry/rigid3.h"
+
 namespace msc_vo {
 
-// Messages of ROS 1 that RGB-D cameras publish, deserialised from their bytes. The parsers throw
-// std::runtime_error if the bytes end too early. Views point into the bytes.
+// Messages of ROS that RGB-D cameras publish, deserialised from their bytes. The parsers throw
+// std::runtime_error if the bytes end too early, or if they are CDR and msc_vo was built without
+// Fast CDR. Views point into the bytes.
+
+/// How the bytes of a message are to be read.
+enum class RosSerialization {
+  kRos1,
+  kCdr,  ///< of ROS 2, in either order of bytes
+};
 
 /// Returns a time as the double nearest to its decimal number of seconds, as in a text file.
 double SecondsOf(uint32_t seconds, uint32_t nanoseconds);
+/// The same for nanoseconds since 1970; 0 for times before and beyond 2106.
+double SecondsOf(int64_t nanoseconds);
 
 /// std_msgs/Header.
 struct RosHeader {
@@ -52,9 +63,14 @@ struct RosCameraInfo {
 };
 
 /// All messages with images begin with a header.
-RosHeader ParseRosHeader(std::string_view bytes);
-RosImage ParseRosImage(std::string_view bytes);
-RosCompressedImage ParseRosCompressedImage(std::string_view bytes);
-RosCameraInfo ParseRosCameraInfo(std::string_view bytes);
+RosHeader ParseRosHeader(std::string_view bytes, RosSerialization serialization);
+RosImage ParseRosImage(std::string_view bytes, RosSerialization serialization);
+RosCompressedImage ParseRosCompressedImage(std::string_view bytes, RosSerialization serialization);
+RosCameraInfo ParseRosCameraInfo(std::string_view bytes, RosSerialization serialization);
+/// std_msgs/Float32.
+float ParseRosFloat(std::string_view bytes, RosSerialization serialization);
+/// geometry_msgs/Transform; translation in metres. Throws std::runtime_error if the rotation has no
+/// unit length.
+Rigid3 ParseRosTransform(std::string_view bytes, RosSerialization serialization);
 
 }  // namespace msc_vo

@@ -13,6 +13,9 @@ namespace msc_vo {
 
 namespace {
 
+// Behind the name of a stream in recordings of the RealSense viewer.
+constexpr char kRealSenseImage[] = "/image/data";
+
 unsigned char Byte(char c) { return static_cast<unsigned char>(c); }
 
 bool HasWord(const ImageTopic& topic, std::initializer_list<const char*> words) {
@@ -122,12 +125,15 @@ bool IsRectified(const ImageTopic& topic) {
 
 std::string CameraInfoTopicOf(const std::string& image_topic) {
   std::string topic = image_topic;
-  for (const std::string transport : {"/compressed", "/compressedDepth"}) {
-    if (topic.size() > transport.size() &&
-        topic.compare(topic.size() - transport.size(), transport.size(), transport) == 0) {
-      topic.erase(topic.size() - transport.size());
-    }
-  }
+  const auto remove_ending = [&topic](const std::string& ending) {
+    const bool ends = topic.size() > ending.size() &&
+                      topic.compare(topic.size() - ending.size(), ending.size(), ending) == 0;
+    if (ends) topic.erase(topic.size() - ending.size());
+    return ends;
+  };
+  if (remove_ending(kRealSenseImage)) return topic + "/info/camera_info";
+  remove_ending("/compressed");
+  remove_ending("/compressedDepth");
   return topic.substr(0, topic.rfind('/')) + "/camera_info";
 }
 

@@ -38,7 +38,8 @@ std::string DescribeTopic(const ImageTopic& topic);
 bool IsRectified(const ImageTopic& topic);
 
 /// Returns the topic of the CameraInfo that belongs to a topic with images:
-/// "/camera/rgb/image_color/compressed" -> "/camera/rgb/camera_info".
+/// "/camera/rgb/image_color/compressed" -> "/camera/rgb/camera_info", and, of the RealSense viewer,
+/// "/device_0/sensor_1/Color_0/image/data" -> "/device_0/sensor_1/Color_0/info/camera_info".
 std::string CameraInfoTopicOf(const std::string& image_topic);
 
 }  // namespace msc_vo

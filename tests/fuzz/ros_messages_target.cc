@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// Messages of ROS bags: images, compressed images and calibrations. The first byte chooses the
-// type.
+// Messages of ROS bags: images, compressed images, calibrations and others. The first byte chooses
+// the type and whether the message is of ROS 1 or 2.
 
 #include <cmath>
 
@@ -11,27 +11,28 @@
 #include <opencv2/core/utils/logger.hpp>
 
 #include "msc_vo/ros_bag/ros_image.h"
+#include "msc_vo/ros_bag/rvl.h"
 #include "msc_vo/ros_bag/topic_choice.h"
 
 namespace msc_vo {
 namespace {
 
-void ReadImage(std::string_view bytes) {
-  const RosImage image = ParseRosImage(bytes);
+void ReadImage(std::string_view bytes, RosSerialization serialization) {
+  const RosImage image = ParseRosImage(bytes, serialization);
   const StoredImage stored = ConvertRosImage(image);
   Require(stored.pixels.rows == static_cast<int>(image.height) &&
               stored.pixels.cols == static_cast<int>(image.width),
           "an image of the size in the message");
 }
 
-void ReadCompressedImage(std::string_view bytes) {
-  const RosCompressedImage image = ParseRosCompressedImage(bytes);
+void ReadCompressedImage(std::string_view bytes, RosSerialization serialization) {
+  const RosCompressedImage image = ParseRosCompressedImage(bytes, serialization);
   KindOfFormat(image.format);
   ConvertRosImage(image);
 }
 
-void ReadCameraInfo(std::string_view bytes) {
-  const RosCameraInfo info = ParseRosCameraInfo(bytes);
+void ReadCameraInfo(std::string_view bytes, RosSerialization serialization) {
+  const RosCameraInfo info = ParseRosCameraInfo(bytes, serialization);
   for (const bool is_rectified : {false, true}) {
     std::string problem;
     const std::optional<Calibration> calibration = CalibrationFrom(info, is_rectified, &problem);
@@ -50,16 +51,24 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string_view bytes = AsText(data + 1, size - 1);
   // The caller names file, topic and message.
   Accepts("", [&] {
-    switch (data[0] % 4) {
+    const auto serialization = data[0] & 8 ? RosSerialization::kCdr : RosSerialization::kRos1;
+    switch (data[0] % 8) {
       case 0:
-        return ReadImage(bytes);
+        return ReadImage(bytes, serialization);
       case 1:
-        return ReadCompressedImage(bytes);
+        return ReadCompressedImage(bytes, serialization);
       case 2:
-        return ReadCameraInfo(bytes);
-      default:
-        Require(std::isfinite(ParseRosHeader(bytes).stamp), "a finite stamp");
+        return ReadCameraInfo(bytes, serialization);
+      case 3:
+        Require(std::isfinite(ParseRosHeader(bytes, serialization).stamp), "a finite stamp");
         CameraInfoTopicOf(std::string(bytes));
+        return;
+      case 4:
+        Require(ParseRosTransform(bytes, serialization).translation().allFinite(),
+                "a finite translation");
+        return;
+      default:
+        DecodeRvl(bytes);
     }
   });
   return 0;

@@ -42,72 +42,99 @@ class BagCommandTest : public TemporaryFolder {
     info.fy = camera.fy;
     info.cx = camera.cx;
     info.cy = camera.cy;
-    bag->Write("/camera/rgb/camera_info", "CameraInfo", 1.0, CameraInfoMessage(info));
+    bag->Write("/camera/rgb/camera_info", "sensor_msgs/CameraInfo", 1.0,
+               CameraInfoMessage(info, bag->serialization()));
+  }
+  // As the TUM benchmark distributes its sequences: depth in metres; the JPEG images as they are.
+  static void WriteCompressed(const RgbdDecoder& decoder, std::unique_ptr<BagWriter> bag) {
+    WriteCamera(decoder.calibration(), bag.get());
+    for (int i = 0; i < decoder.size(); ++i) {
+      const SequenceEntry& entry = decoder.index().entries[i];
+      const auto seconds = static_cast<uint32_t>(entry.timestamp);
+      const uint32_t nanoseconds = Nanoseconds(entry.timestamp);
+      bag->Write(
+          "/camera/rgb/image_color/compressed", "sensor_msgs/CompressedImage", entry.timestamp,
+          CompressedMessage(seconds, nanoseconds, "bgr8; jpeg compressed bgr8",
+                            ReadFile(entry.color_path, kMaxImageBytes), bag->serialization()));
+      bag->Write("/camera/depth/image", "sensor_msgs/Image", entry.timestamp,
+                 ImageMessage(seconds, nanoseconds, decoder.Decode(i).depth, "32FC1",
+                              bag->serialization()));
+    }
+  }
+  static void WriteRaw(const RgbdDecoder& decoder, std::unique_ptr<BagWriter> bag) {
+    for (int i = 0; i < decoder.size(); ++i) {
+      const SequenceEntry& entry = decoder.index().entries[i];
+      const auto seconds = static_cast<uint32_t>(entry.timestamp);
+      const uint32_t nanoseconds = Nanoseconds(entry.timestamp);
+      bag->Write("/c/image", "sensor_msgs/Image", entry.timestamp,
+                 ImageMessage(seconds, nanoseconds, cv::imread(entry.color_path), "bgr8",
+                              bag->serialization()));
+      bag->Write(
+          "/d/image", "sensor_msgs/Image", entry.timestamp,
+          ImageMessage(seconds, nanoseconds, cv::imread(entry.depth_path, cv::IMREAD_UNCHANGED),
+                       "16UC1", bag->serialization()));
+    }
   }
   void ExpectSameTrajectory(const std::string& a, const std::string& b) {
     EXPECT_EQ(ReadFile(Path(a + "/trajectory.txt")), ReadFile(Path(b + "/trajectory.txt")));
   }
 };
 
-// As the TUM benchmark distributes its sequences: depth in metres; the JPEG images as they are.
 TEST_F(BagCommandTest, ReplaysTheSampleSequence) {
   const std::string room = MSC_VO_DATA_FOLDER "/room";
   const RgbdDecoder decoder = Decoder(room);
-  {
-    BagWriter bag(Path("room.bag"), BagCompression::kLz4);
-    WriteCamera(decoder.calibration(), &bag);
-    for (int i = 0; i < decoder.size(); ++i) {
-      const SequenceEntry& entry = decoder.index().entries[i];
-      const auto seconds = static_cast<uint32_t>(entry.timestamp);
-      const uint32_t nanoseconds = Nanoseconds(entry.timestamp);
-      bag.Write("/camera/rgb/image_color/compressed", "CompressedImage", entry.timestamp,
-                CompressedMessage(seconds, nanoseconds, "bgr8; jpeg compressed bgr8",
-                                  ReadFile(entry.color_path, kMaxImageBytes)));
-      bag.Write("/camera/depth/image", "Image", entry.timestamp,
-                ImageMessage(seconds, nanoseconds, decoder.Decode(i).depth, "32FC1"));
-    }
-  }
+  WriteCompressed(decoder, WriteRos1Bag(Path("room.bag"), "lz4"));
+  WriteCompressed(decoder, WriteDb3Bag(Path("room.db3"), "zstd"));
+  WriteCompressed(decoder, WriteMcapBag(Path("room.mcap"), {"zstd", true, true}));
   std::filesystem::copy_file(room + "/groundtruth.txt", Path("room-groundtruth.txt"));
-  Run({"replay", room, "--output", Path("from_folder"), "--quiet"});
-  Run({"replay", Path("room.bag"), "--output", Path("from_bag"), "--quiet"});
-  ExpectSameTrajectory("from_folder", "from_bag");
-  const auto summary = [&](const std::string& run) {
-    return nlohmann::json::parse(ReadFile(Path(run + "/summary.json")));
+  Run({"replay", room, "--output", Path("folder"), "--quiet"});
+  const auto error = [&](const std::string& run) {
+    return nlohmann::json::parse(ReadFile(Path(run + "/summary.json")))["error"];
   };
-  EXPECT_EQ(summary("from_folder")["error"], summary("from_bag")["error"]);
+  for (const std::string kind : {"bag", "db3", "mcap"}) {
+    SCOPED_TRACE(kind);
+    Run({"replay", Path("room." + kind), "--output", Path(kind), "--quiet"});
+    ExpectSameTrajectory("folder", kind);
+    EXPECT_EQ(error("folder"), error(kind));
+  }
 }
 
-// Raw images, through check and record.
-TEST_F(BagCommandTest, RecordsRawImages) {
+// Raw images in each kind of bag and compression, through check and record, too.
+TEST_F(BagCommandTest, ReplaysRawImages) {
   Run({"synthesize", Path("folder"), "--frames", "10", "--width", "160"});
   const RgbdDecoder decoder = Decoder(Path("folder"));
-  {
-    BagWriter bag(Path("raw.bag"), BagCompression::kNone);
-    WriteCamera(decoder.calibration(), &bag);
-    for (int i = 0; i < decoder.size(); ++i) {
-      const SequenceEntry& entry = decoder.index().entries[i];
-      const auto seconds = static_cast<uint32_t>(entry.timestamp);
-      const uint32_t nanoseconds = Nanoseconds(entry.timestamp);
-      bag.Write("/c/image", "Image", entry.timestamp,
-                ImageMessage(seconds, nanoseconds, cv::imread(entry.color_path), "bgr8"));
-      bag.Write("/d/image", "Image", entry.timestamp,
-                ImageMessage(seconds, nanoseconds,
-                             cv::imread(entry.depth_path, cv::IMREAD_UNCHANGED), "16UC1"));
-    }
-  }
-  const std::vector<std::string> camera = {"--config", Path("camera.yaml")};
   const PinholeCamera& c = decoder.calibration().camera;
   WriteText("camera.yaml",
             "camera:\n  fx: " + std::to_string(c.fx) + "\n  fy: " + std::to_string(c.fy) +
                 "\n  cx: " + std::to_string(c.cx) + "\n  cy: " + std::to_string(c.cy) +
                 "\n  width: 160\n  height: 120\n  depth_scale: 5000\n");
-  Run({"check", Path("raw.bag"), "--config", Path("camera.yaml")});
-  Run({"record", Path("raw.bag"), Path("copy"), "--config", Path("camera.yaml")});
   Run({"replay", Path("folder"), "--output", Path("a"), "--quiet"});
-  Run({"replay", Path("raw.bag"), "--output", Path("b"), "--config", Path("camera.yaml"),
-       "--quiet"});
+  std::vector<std::string> bags;
+  const auto write = [&](std::unique_ptr<BagWriter> bag, const std::string& name) {
+    WriteRaw(decoder, std::move(bag));
+    bags.push_back(name);
+  };
+  for (const std::string compression : {"none", "bz2", "lz4"}) {
+    write(WriteRos1Bag(Path(compression + ".bag"), compression), compression + ".bag");
+  }
+  for (const std::string compression : {"none", "zstd"}) {
+    write(WriteDb3Bag(Path(compression + ".db3"), compression), compression + ".db3");
+  }
+  for (const std::string compression : {"", "zstd", "lz4"}) {
+    const std::string name = "chunks" + compression + ".mcap";
+    write(WriteMcapBag(Path(name), {compression, true, true}), name);
+  }
+  CompressFile(Path("none.db3"), Path("file.db3.zstd"));
+  bags.push_back("file.db3.zstd");
+  for (const std::string& bag : bags) {
+    SCOPED_TRACE(bag);
+    Run({"replay", Path(bag), "--output", Path(bag + "-run"), "--config", Path("camera.yaml"),
+         "--quiet"});
+    ExpectSameTrajectory("a", bag + "-run");
+  }
+  Run({"check", Path("none.db3"), "--config", Path("camera.yaml")});
+  Run({"record", Path("none.db3"), Path("copy"), "--config", Path("camera.yaml")});
   Run({"replay", Path("copy"), "--output", Path("c"), "--quiet"});
-  ExpectSameTrajectory("a", "b");
   ExpectSameTrajectory("a", "c");
 }
 

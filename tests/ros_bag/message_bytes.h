@@ -10,13 +10,21 @@
 
 #include <opencv2/core.hpp>
 
+#include "msc_vo/ros_bag/ros_message.h"
+
 namespace msc_vo {
 
 // The serialised fields of a ROS message.
 class MessageBytes {
  public:
+  explicit MessageBytes(RosSerialization serialization = RosSerialization::kRos1)
+      : is_cdr_(serialization == RosSerialization::kCdr),
+        bytes_(is_cdr_ ? std::string("\0\1\0\0", 4) : "") {}
+
   template <typename Number>
   MessageBytes& Add(Number value) {
+    // CDR aligns values to their size, counted from the end of the four bytes in front.
+    while (is_cdr_ && (bytes_.size() - 4) % sizeof(value) != 0) bytes_ += '\0';
     bytes_.append(reinterpret_cast<const char*>(&value), sizeof(value));
     return *this;
   }
@@ -25,24 +33,33 @@ class MessageBytes {
     bytes_ += bytes;
     return *this;
   }
+  MessageBytes& AddText(const std::string& text) { return AddArray(is_cdr_ ? text + '\0' : text); }
   MessageBytes& AddHeader(uint32_t seconds, uint32_t nanoseconds) {
-    return Add(uint32_t{7}).Add(seconds).Add(nanoseconds).AddArray("/camera");
+    if (!is_cdr_) Add(uint32_t{7});
+    return Add(seconds).Add(nanoseconds).AddText("/camera");
+  }
+  template <typename Numbers>
+  MessageBytes& AddEach(const Numbers& values) {
+    for (const double value : values) Add(value);
+    return *this;
   }
   const std::string& bytes() const { return bytes_; }
 
  private:
+  bool is_cdr_;
   std::string bytes_;
 };
 
 inline std::string ImageMessage(uint32_t seconds, uint32_t nanoseconds, const cv::Mat& image,
-                                const std::string& encoding) {
+                                const std::string& encoding,
+                                RosSerialization serialization = RosSerialization::kRos1) {
   const cv::Mat pixels = image.clone();  // continuous
   const size_t step = pixels.cols * pixels.elemSize();
-  return MessageBytes()
+  return MessageBytes(serialization)
       .AddHeader(seconds, nanoseconds)
       .Add(static_cast<uint32_t>(pixels.rows))
       .Add(static_cast<uint32_t>(pixels.cols))
-      .AddArray(encoding)
+      .AddText(encoding)
       .Add(uint8_t{0})
       .Add(static_cast<uint32_t>(step))
       .AddArray(std::string(reinterpret_cast<const char*>(pixels.data), step * pixels.rows))
@@ -50,8 +67,13 @@ inline std::string ImageMessage(uint32_t seconds, uint32_t nanoseconds, const cv
 }
 
 inline std::string CompressedMessage(uint32_t seconds, uint32_t nanoseconds,
-                                     const std::string& format, const std::string& data) {
-  return MessageBytes().AddHeader(seconds, nanoseconds).AddArray(format).AddArray(data).bytes();
+                                     const std::string& format, const std::string& data,
+                                     RosSerialization serialization = RosSerialization::kRos1) {
+  return MessageBytes(serialization)
+      .AddHeader(seconds, nanoseconds)
+      .AddText(format)
+      .AddArray(data)
+      .bytes();
 }
 
 struct CameraInfoFields {
@@ -61,17 +83,20 @@ struct CameraInfoFields {
   std::vector<double> d = {0, 0, 0, 0, 0};
 };
 
-inline std::string CameraInfoMessage(const CameraInfoFields& info) {
-  MessageBytes bytes;
-  bytes.AddHeader(1, 0).Add(info.height).Add(info.width).AddArray(info.model);
-  bytes.Add(static_cast<uint32_t>(info.d.size()));
-  for (const double k : info.d) bytes.Add(k);
-  for (const double k : {info.fx, 0.0, info.cx, 0.0, info.fy, info.cy, 0.0, 0.0, 1.0}) bytes.Add(k);
-  for (const double r : {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}) bytes.Add(r);
-  for (const double p : {500.0, 0.0, 320.0, 0.0, 0.0, 501.0, 240.0, 0.0, 0.0, 0.0, 1.0, 0.0}) {
-    bytes.Add(p);
-  }
-  return bytes.bytes();
+inline std::string CameraInfoMessage(const CameraInfoFields& info,
+                                     RosSerialization serialization = RosSerialization::kRos1) {
+  using Numbers = std::vector<double>;
+  return MessageBytes(serialization)
+      .AddHeader(1, 0)
+      .Add(info.height)
+      .Add(info.width)
+      .AddText(info.model)
+      .Add(static_cast<uint32_t>(info.d.size()))
+      .AddEach(info.d)
+      .AddEach(Numbers{info.fx, 0.0, info.cx, 0.0, info.fy, info.cy, 0.0, 0.0, 1.0})
+      .AddEach(Numbers{1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0})
+      .AddEach(Numbers{500.0, 0.0, 320.0, 0.0, 0.0, 501.0, 240.0, 0.0, 0.0, 0.0, 1.0, 0.0})
+      .bytes();
 }
 
 }  // namespace msc_vo

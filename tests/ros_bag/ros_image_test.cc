@@ -15,6 +15,8 @@ namespace {
 
 using testing::HasSubstr;
 
+constexpr RosSerialization kRos1 = RosSerialization::kRos1;
+
 std::string Png(const cv::Mat& image) {
   std::vector<uchar> bytes;
   cv::imencode(".png", image, bytes);
@@ -23,16 +25,16 @@ std::string Png(const cv::Mat& image) {
 
 TEST(RosMessage, ReadsStampsAsInTextFiles) {
   const std::string bytes = MessageBytes().AddHeader(1305031102, 175304000).bytes();
-  EXPECT_EQ(ParseRosHeader(bytes).stamp, 1305031102.175304);
+  EXPECT_EQ(ParseRosHeader(bytes, kRos1).stamp, 1305031102.175304);
 }
 
 TEST(RosMessage, RefusesShortMessages) {
   const std::string bytes = ImageMessage(1, 2, cv::Mat::zeros(3, 4, CV_8UC3), "bgr8");
   for (size_t size = 0; size < bytes.size(); size += 5) {
-    EXPECT_THROW(ParseRosImage(std::string_view(bytes).substr(0, size)), std::runtime_error);
+    EXPECT_THROW(ParseRosImage(std::string_view(bytes).substr(0, size), kRos1), std::runtime_error);
   }
-  EXPECT_NO_THROW(ParseRosImage(bytes));
-  EXPECT_THROW(ParseRosCameraInfo(bytes), std::runtime_error);
+  EXPECT_NO_THROW(ParseRosImage(bytes, kRos1));
+  EXPECT_THROW(ParseRosCameraInfo(bytes, kRos1), std::runtime_error);
 }
 
 TEST(RosImage, ConvertsColours) {
@@ -40,7 +42,7 @@ TEST(RosImage, ConvertsColours) {
   const cv::Mat rgb(2, 3, CV_8UC3, cv::Scalar(30, 20, 10));
   const auto convert = [](const cv::Mat& image, const std::string& encoding) {
     const std::string bytes = ImageMessage(1, 0, image, encoding);
-    return ConvertRosImage(ParseRosImage(bytes)).pixels;
+    return ConvertRosImage(ParseRosImage(bytes, kRos1)).pixels;
   };
   EXPECT_EQ(cv::norm(convert(bgr, "bgr8"), bgr), 0.0);
   EXPECT_EQ(cv::norm(convert(rgb, "rgb8"), bgr), 0.0);
@@ -53,7 +55,7 @@ TEST(RosImage, ConvertsColours) {
   EXPECT_THAT(MessageOf([&] { convert(cv::Mat(2, 3, CV_8UC1), "bgr8"); }),
               Names("damaged", "size"));
   const std::string bytes = ImageMessage(1, 0, cv::Mat(2, 3, CV_32FC1), "32FC1");
-  RosImage image = ParseRosImage(bytes);
+  RosImage image = ParseRosImage(bytes, kRos1);
   image.height = 1;
   ++image.step;  // no whole number of values
   EXPECT_THAT(MessageOf([&] { ConvertRosImage(image); }), Names("damaged", "size"));
@@ -68,7 +70,7 @@ TEST(RosImage, ReadsEitherByteOrder) {
       std::reverse(value, value + values.elemSize());
     }
     const std::string bytes = ImageMessage(1, 0, reversed, encoding);
-    RosImage image = ParseRosImage(bytes);
+    RosImage image = ParseRosImage(bytes, kRos1);
     image.is_big_endian = true;
     return ConvertRosImage(image).pixels;
   };
@@ -86,7 +88,7 @@ TEST(RosImage, FindsRedInABayerPattern) {
     for (int x = 0; x < 8; x += 2) pattern.at<uint8_t>(y, x) = 200;
   }
   const std::string bytes = ImageMessage(1, 0, pattern, "bayer_rggb8");
-  const cv::Mat bgr = ConvertRosImage(ParseRosImage(bytes)).pixels;
+  const cv::Mat bgr = ConvertRosImage(ParseRosImage(bytes, kRos1)).pixels;
   EXPECT_EQ(bgr.at<cv::Vec3b>(4, 4), cv::Vec3b(0, 0, 200));
 }
 
@@ -94,7 +96,7 @@ TEST(RosImage, DecodesCompressedDepth) {
   const std::string header(12, '\0');
   const cv::Mat raw(2, 3, CV_16UC1, cv::Scalar(1234));
   const std::string bytes = CompressedMessage(1, 0, "16UC1; compressedDepth", header + Png(raw));
-  EXPECT_EQ(ConvertRosImage(ParseRosCompressedImage(bytes)).bytes, Png(raw));
+  EXPECT_EQ(ConvertRosImage(ParseRosCompressedImage(bytes, kRos1)).bytes, Png(raw));
 
   // Metres are quantised: value = a / depth + b.
   float parameters[3] = {0.0f, 1000.0f, 5.0f};
@@ -104,15 +106,17 @@ TEST(RosImage, DecodesCompressedDepth) {
   values.at<uint16_t>(0, 1) = 0;
   const std::string metres =
       CompressedMessage(1, 0, "32FC1; compressedDepth", quantised + Png(values));
-  const cv::Mat depth = ConvertRosImage(ParseRosCompressedImage(metres)).pixels;
+  const cv::Mat depth = ConvertRosImage(ParseRosCompressedImage(metres, kRos1)).pixels;
   EXPECT_FLOAT_EQ(depth.at<float>(0, 0), 2.0f);
   EXPECT_EQ(depth.at<float>(0, 1), 0.0f);
 
   const std::string damaged = CompressedMessage(1, 0, "16UC1; compressedDepth", header + "no PNG");
-  EXPECT_THAT(MessageOf([&] { ConvertRosImage(ParseRosCompressedImage(damaged)); }),
+  EXPECT_THAT(MessageOf([&] { ConvertRosImage(ParseRosCompressedImage(damaged, kRos1)); }),
               HasSubstr("damaged"));
-  const std::string rvl = CompressedMessage(1, 0, "16UC1; compressedDepth rvl", header + "data");
-  EXPECT_THAT(MessageOf([&] { ConvertRosImage(ParseRosCompressedImage(rvl)); }), HasSubstr("RVL"));
+  const uint32_t words[] = {4, 1, 0x04a11040};  // see rvl_test.cc
+  const std::string data(reinterpret_cast<const char*>(words), sizeof(words));
+  const std::string rvl = CompressedMessage(1, 0, "16UC1; compressedDepth rvl", header + data);
+  EXPECT_EQ(ConvertRosImage(ParseRosCompressedImage(rvl, kRos1)).pixels.at<uint16_t>(0, 3), 6);
 }
 
 TEST(RosImage, KnowsKindsOfImages) {
@@ -132,7 +136,7 @@ TEST(RosCamera, TakesTheMatrixThatFitsTheImages) {
   std::string problem;
   const auto calibrate = [&](bool is_rectified) {
     const std::string bytes = CameraInfoMessage(fields);
-    return CalibrationFrom(ParseRosCameraInfo(bytes), is_rectified, &problem);
+    return CalibrationFrom(ParseRosCameraInfo(bytes, kRos1), is_rectified, &problem);
   };
   EXPECT_EQ(calibrate(false)->camera.fx, 525.0);
   EXPECT_EQ(calibrate(false)->camera.width, 640);

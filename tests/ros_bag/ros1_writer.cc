@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "tests/ros_bag/bag_writer.h"
-
 #include <cstring>
 
+#include "tests/ros_bag/bag_writer.h"
 #include <ros/message_traits.h>
 #include <ros/serialization.h>
 #include <rosbag/bag.h>
@@ -55,28 +54,36 @@ struct Serializer<msc_vo::SerialisedMessage> {
 
 namespace msc_vo {
 
-struct BagWriter::Bag {
-  rosbag::Bag bag;
+namespace {
+
+class Ros1Writer : public BagWriter {
+ public:
+  Ros1Writer(const std::string& path, const std::string& compression)
+      : BagWriter(RosSerialization::kRos1) {
+    bag_.open(path, rosbag::bagmode::Write);
+    bag_.setCompression(compression == "bz2"   ? rosbag::compression::BZ2
+                        : compression == "lz4" ? rosbag::compression::LZ4
+                                               : rosbag::compression::Uncompressed);
+  }
+  ~Ros1Writer() override { bag_.close(); }
+
+  void Write(const std::string& topic, const std::string& type, double seconds,
+             const std::string& bytes) override {
+    SerialisedMessage message{type, "", bytes};
+    message.md5 = type == "sensor_msgs/Image"             ? "060021388200f6f0f447d0fcd9c64743"
+                  : type == "sensor_msgs/CompressedImage" ? "8f7a12909da2c9d3332d540a0977563f"
+                                                          : "c9a58c1b0b154e0e6da7578cb991d214";
+    bag_.write(topic, ros::Time(seconds), message);
+  }
+
+ private:
+  rosbag::Bag bag_;
 };
 
-BagWriter::BagWriter(const std::string& path, BagCompression compression)
-    : bag_(std::make_unique<Bag>()) {
-  bag_->bag.open(path, rosbag::bagmode::Write);
-  bag_->bag.setCompression(compression == BagCompression::kBz2 ? rosbag::compression::BZ2
-                           : compression == BagCompression::kLz4
-                               ? rosbag::compression::LZ4
-                               : rosbag::compression::Uncompressed);
-}
+}  // namespace
 
-BagWriter::~BagWriter() { bag_->bag.close(); }
-
-void BagWriter::Write(const std::string& topic, const std::string& type, double seconds,
-                      const std::string& bytes) {
-  SerialisedMessage message{"sensor_msgs/" + type, "", bytes};
-  message.md5 = type == "Image"             ? "060021388200f6f0f447d0fcd9c64743"
-                : type == "CompressedImage" ? "8f7a12909da2c9d3332d540a0977563f"
-                                            : "c9a58c1b0b154e0e6da7578cb991d214";
-  bag_->bag.write(topic, ros::Time(seconds), message);
+std::unique_ptr<BagWriter> WriteRos1Bag(const std::string& path, const std::string& compression) {
+  return std::make_unique<Ros1Writer>(path, compression);
 }
 
 }  // namespace msc_vo

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/ros_bag/db3_bag.h"
+
+#include <cstdint>
+#include <map>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <sqlite3.h>
+
+#include "msc_vo/ros_bag/decompression.h"
+
+namespace msc_vo {
+
+namespace {
+
+struct CloseDatabase {
+  void operator()(sqlite3* database) const { sqlite3_close(database); }
+};
+struct FinalizeStatement {
+  void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+};
+using Database = std::unique_ptr<sqlite3, CloseDatabase>;
+using Statement = std::unique_ptr<sqlite3_stmt, FinalizeStatement>;
+
+void Check(sqlite3* database, bool is_good) {
+  if (!is_good) throw std::runtime_error(sqlite3_errmsg(database));
+}
+
+Database Open(const std::string& file) {
+  // A recorder that was killed may have left a log beside the file, which a connection that may
+  // not write applies too. Where the folder forbids that, the file is read as it is.
+  for (const char* mode : {"?mode=ro", "?immutable=1"}) {
+    std::string uri = "file:";
+    for (const char c : file)
+      uri += c == '?' ? "%3f" : c == '#' ? "%23" : c == '%' ? "%25" : std::string(1, c);
+    sqlite3* opened = nullptr;
+    const int result = sqlite3_open_v2((uri + mode).c_str(), &opened,
+                                       SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
+    Database database(opened);
+    Check(opened, result == SQLITE_OK);
+    sqlite3_db_config(opened, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+    sqlite3_exec(opened, "PRAGMA trusted_schema = OFF", nullptr, nullptr, nullptr);
+    sqlite3_exec(opened, "PRAGMA cell_size_check = ON", nullptr, nullptr, nullptr);
+    if (sqlite3_exec(opened, "SELECT count(*) FROM sqlite_master", nullptr, nullptr, nullptr) !=
+        SQLITE_CANTOPEN) {
+      return database;
+    }
+  }
+  throw std::runtime_error("cannot be opened (check its permissions)");
+}
+
+Statement Prepare(sqlite3* database, const std::string& sql) {
+  sqlite3_stmt* statement = nullptr;
+  const int result = sqlite3_prepare_v2(database, sql.c_str(), -1, &statement, nullptr);
+  Statement owned(statement);
+  Check(database, result == SQLITE_OK);
+  return owned;
+}
+
+bool Step(sqlite3* database, sqlite3_stmt* statement) {
+  const int result = sqlite3_step(statement);
+  Check(database, result == SQLITE_ROW || result == SQLITE_DONE);
+  return result == SQLITE_ROW;
+}
+
+std::string Bytes(sqlite3_stmt* statement, int column) {
+  const void* data = sqlite3_column_blob(statement, column);
+  const int size = sqlite3_column_bytes(statement, column);
+  return data == nullptr ? std::string() : std::string(static_cast<const char*>(data), size);
+}
+
+class Db3Bag : public BagFile {
+ public:
+  Db3Bag(const std::string& path, const std::string& file) : BagFile(path), database_(Open(file)) {
+    std::map<int64_t, std::string> names;
+    std::vector<BagTopic> topics;
+    const Statement rows = Select("SELECT id, name, type FROM topics ORDER BY id");
+    while (Step(database_.get(), rows.get())) {
+      names[sqlite3_column_int64(rows.get(), 0)] = Bytes(rows.get(), 1);
+      topics.push_back(
+          {Bytes(rows.get(), 1), WithoutMsg(Bytes(rows.get(), 2)), RosSerialization::kCdr});
+    }
+    SetTopics(std::move(topics));
+    const Statement times = Select("SELECT id, topic_id, timestamp FROM messages ORDER BY id");
+    while (Step(database_.get(), times.get())) {
+      const auto name = names.find(sqlite3_column_int64(times.get(), 1));
+      if (name == names.end()) continue;
+      messages_[name->second].push_back(
+          {sqlite3_column_int64(times.get(), 0), sqlite3_column_int64(times.get(), 2)});
+    }
+    data_ = Select("SELECT data FROM messages WHERE id = ?");
+  }
+
+ private:
+  struct Message {
+    int64_t id;
+    int64_t time;  // nanoseconds
+  };
+
+  Statement Select(const std::string& sql) const { return Prepare(database_.get(), sql); }
+
+  int DoCount(const BagTopic& topic) const override {
+    const auto found = messages_.find(topic.name);
+    return found == messages_.end() ? 0 : static_cast<int>(found->second.size());
+  }
+  std::string DoRead(const BagTopic& topic, int i) const override {
+    sqlite3_reset(data_.get());
+    sqlite3_bind_int64(data_.get(), 1, messages_.at(topic.name).at(static_cast<size_t>(i)).id);
+    Check(database_.get(), Step(database_.get(), data_.get()));
+    std::string bytes = Bytes(data_.get(), 0);
+    sqlite3_reset(data_.get());
+    return IsZstd(bytes) ? UnpackZstd(bytes) : bytes;
+  }
+  double DoReceiveTime(const BagTopic& topic, int i) const override {
+    return SecondsOf(messages_.at(topic.name).at(static_cast<size_t>(i)).time);
+  }
+
+  Database database_;
+  std::map<std::string, std::vector<Message>> messages_;  // by topic, in the order of recording
+  Statement data_;
+};
+
+}  // namespace
+
+std::unique_ptr<BagFile> OpenDb3Bag(const std::string& path, const std::string& file) {
+  try {
+    return std::make_unique<Db3Bag>(path, file);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(path + ": cannot be read as a bag of ROS 2: " + error.what());
+  }
+}
+
+}  // namespace msc_vo

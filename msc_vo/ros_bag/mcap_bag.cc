@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/ros_bag/mcap_bag.h"
+
+#include <map>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "msc_vo/ros_bag/decompression.h"
+#include "msc_vo/ros_bag/mcap_file.h"
+#include "msc_vo/ros_bag/ros_message.h"
+
+namespace msc_vo {
+
+namespace {
+
+class McapBag : public BagFile {
+ public:
+  McapBag(const std::string& path, const std::string& file) : BagFile(path), file_(file) {
+    std::vector<BagTopic> topics;
+    for (const auto& [id, channel] : file_.channels()) {
+      // Of others, such as protobuf, the type is no message of ROS.
+      const auto serialization =
+          channel.encoding == "ros1" ? RosSerialization::kRos1 : RosSerialization::kCdr;
+      topics.push_back({channel.topic, WithoutMsg(channel.schema), serialization});
+    }
+    SetTopics(std::move(topics));
+    for (const McapMessage& message : file_.messages()) {
+      const auto channel = file_.channels().find(message.channel);
+      if (channel != file_.channels().end()) messages_[channel->second.topic].push_back(message);
+    }
+    if (file_.is_cut_off()) {
+      Warn(path + ": the end of the recording is missing; it is read as far as it goes");
+    }
+  }
+
+ private:
+  int DoCount(const BagTopic& topic) const override {
+    const auto found = messages_.find(topic.name);
+    return found == messages_.end() ? 0 : static_cast<int>(found->second.size());
+  }
+  std::string DoRead(const BagTopic& topic, int i) const override {
+    std::string bytes = file_.Read(messages_.at(topic.name).at(static_cast<size_t>(i)));
+    return IsZstd(bytes) ? UnpackZstd(bytes) : bytes;
+  }
+  double DoReceiveTime(const BagTopic& topic, int i) const override {
+    return SecondsOf(
+        static_cast<int64_t>(messages_.at(topic.name).at(static_cast<size_t>(i)).log_time));
+  }
+
+  mutable McapFile file_;
+  std::map<std::string, std::vector<McapMessage>> messages_;  // by topic, in the order of the file
+};
+
+}  // namespace
+
+std::unique_ptr<BagFile> OpenMcapBag(const std::string& path, const std::string& file) {
+  try {
+    return std::make_unique<McapBag>(path, file);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(path + ": cannot be read as an MCAP file: " + error.what() +
+                             "; 'mcap recover' repairs a copy of a damaged file");
+  }
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "msc_vo/ros_bag/ros_message.h"
+
+namespace msc_vo {
+
+/// Reads the fields of a serialised message in their order. Views point into the message. All
+/// functions throw std::runtime_error if the message ends too early.
+class RosFields {
+ public:
+  virtual ~RosFields() = default;
+
+  virtual uint8_t ReadByte() = 0;
+  virtual uint32_t ReadWord() = 0;
+  virtual float ReadFloat() = 0;
+  virtual double ReadDouble() = 0;
+  virtual std::string ReadString() = 0;
+  /// A sequence of bytes.
+  virtual std::string_view ReadBytes() = 0;
+  virtual RosHeader ReadHeader() = 0;
+
+  void ReadDoubles(double* values, size_t count) {
+    for (size_t i = 0; i < count; ++i) values[i] = ReadDouble();
+  }
+};
+
+/// The message must outlive the fields.
+std::unique_ptr<RosFields> OpenRos1Fields(std::string_view message);
+/// Throws std::runtime_error that names what to install if msc_vo was built without Fast CDR.
+std::unique_ptr<RosFields> OpenCdrFields(std::string_view message);
+
+}  // namespace msc_vo
