@@ -52,9 +52,9 @@ class LiveRunTest : public testing::Test {
     const Rigid3 pose = Rigid3(Eigen::Quaterniond::Identity(), {-x, 0.0, -1.0}).Inverse();
     std::vector<float> poses;
     for (int i = 0; i < count; ++i) {
-      for (const double value : pose.translation()) poses.push_back(static_cast<float>(value));
-      for (const double value : pose.rotation().coeffs())
-        poses.push_back(static_cast<float>(value));
+      const Eigen::Matrix<float, 7, 1> params = pose.params.cast<float>();
+      poses.insert(poses.end(), params.data() + 4, params.data() + 7);  // translation
+      poses.insert(poses.end(), params.data(), params.data() + 4);
     }
     return EncodeBase64(poses);
   }
