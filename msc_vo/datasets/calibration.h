@@ -80,10 +80,11 @@ struct CameraSettings {
   std::optional<double> depth_scale;  ///< raw depth units per metre
   LensSettings lens;
   std::optional<double> field_of_view;  ///< degrees, of the undistorted images
+  std::optional<int> max_width;         ///< of colour images, pixels, see FitToImageSizes()
   DepthCameraSettings depth_camera;
   std::string origin;  ///< the file, for messages
 
-  /// Tests whether no value is set.
+  /// Tests whether no value that describes the camera is set.
   bool IsEmpty() const;
 };
 

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "msc_vo/datasets/image_folder.h"
+#include "msc_vo/datasets/image_size_fit.h"
 #include "msc_vo/datasets/name_pairing.h"
 #include "msc_vo/datasets/pose_matrix.h"
 #include "msc_vo/datasets/sequence_format.h"
@@ -35,13 +36,9 @@ std::string PosePath(const SequenceEntry& entry) {
   return (color.parent_path().parent_path() / "pose" / (color.stem().string() + ".txt")).string();
 }
 
-// Returns the camera of an image that is scaled to another size. Pixel centres are at integer
-// coordinates, so the coordinate plus one half is scaled.
-PinholeCamera ScaledCamera(const Eigen::MatrixXd& k, const ImageSize& from, const ImageSize& to) {
-  const double sx = static_cast<double>(to.width) / from.width;
-  const double sy = static_cast<double>(to.height) / from.height;
-  return {sx * k(0, 0), sy * k(1, 1), sx * (k(0, 2) + 0.5) - 0.5, sy * (k(1, 2) + 0.5) - 0.5,
-          to.width,     to.height};
+// The intrinsics of images of one size, for those of another.
+PinholeCamera CameraOf(const Eigen::MatrixXd& k, const ImageSize& from, const ImageSize& to) {
+  return ScaledCamera({k(0, 0), k(1, 1), k(0, 2), k(1, 2), from.width, from.height}, to);
 }
 
 void ReadIntrinsics(const fs::path& folder, SequenceIndex* index) {
@@ -54,10 +51,10 @@ void ReadIntrinsics(const fs::path& folder, SequenceIndex* index) {
   Calibration calibration;
   calibration.depth_scale = 1000.0;  // millimetres
   if (HasEntry(color_file)) {
-    calibration.camera = ScaledCamera(ReadMatrix(color_file, 4, 4), color, depth);
+    calibration.camera = CameraOf(ReadMatrix(color_file, 4, 4), color, depth);
     calibration.origin = color_file;
   } else if (HasEntry(depth_file)) {
-    calibration.camera = ScaledCamera(ReadMatrix(depth_file, 4, 4), depth, depth);
+    calibration.camera = CameraOf(ReadMatrix(depth_file, 4, 4), depth, depth);
     calibration.origin = depth_file;
   } else {
     return;

@@ -12,6 +12,7 @@
 #include "msc_vo/datasets/camera_file.h"
 #include "msc_vo/datasets/camera_preset.h"
 #include "msc_vo/datasets/image_container.h"
+#include "msc_vo/datasets/image_size_fit.h"
 #include "msc_vo/image_files/image_file.h"
 
 namespace msc_vo {
@@ -170,27 +171,54 @@ Calibration BaseCalibration(const CameraSettings& settings, const std::string& p
 
 enum class ImageKind { kColor, kDepth };
 
-ImageSize FirstImageSize(const SequenceIndex& index, ImageKind kind) {
-  if (index.entries.empty()) {
-    throw std::runtime_error(index.directory +
-                             ": give the size of the images, camera.width and camera.height");
-  }
-  const SequenceEntry& first = index.entries.front();
+ImageSize ImageSizeOf(const SequenceIndex& index, const SequenceEntry& entry, ImageKind kind) {
   const bool is_depth = kind == ImageKind::kDepth;
-  if (!index.container) return ReadImageSize(is_depth ? first.depth_path : first.color_path);
-  const StoredImage stored = is_depth ? index.container->ReadDepth(first.depth_index)
-                                      : index.container->ReadColor(first.color_index);
+  if (!index.container) return ReadImageSize(is_depth ? entry.depth_path : entry.color_path);
+  const StoredImage stored = is_depth ? index.container->ReadDepth(entry.depth_index)
+                                      : index.container->ReadColor(entry.color_index);
   const cv::Mat image =
       stored.bytes.empty() ? stored.pixels : DecodeImage(stored.bytes, cv::IMREAD_UNCHANGED);
   return {image.cols, image.rows};
 }
 
-// Takes the size of the first image of a kind if the camera has none.
-void SetMissingSize(const SequenceIndex& index, ImageKind kind, PinholeCamera* camera) {
+// The size of the images of a kind: of the first one that can be read, a damaged one is left to the
+// run. None if that is none of the first few.
+std::optional<ImageSize> FindImageSize(const SequenceIndex& index, ImageKind kind) {
+  constexpr size_t kMaxTries = 10;
+  for (size_t i = 0; i < std::min(index.entries.size(), kMaxTries); ++i) {
+    try {
+      const ImageSize size = ImageSizeOf(index, index.entries[i], kind);
+      if (size.width > 0) return size;
+    } catch (const std::runtime_error&) {  // the next one
+    }
+  }
+  return std::nullopt;
+}
+
+// Takes the size if the camera has none. Throws std::runtime_error if the images have none either.
+void SetMissingSize(const std::optional<ImageSize>& size, const SequenceIndex& index,
+                    ImageKind kind, PinholeCamera* camera) {
   if (camera->width != 0 && camera->height != 0) return;
-  const ImageSize size = FirstImageSize(index, kind);
-  camera->width = size.width;
-  camera->height = size.height;
+  if (index.entries.empty()) {
+    throw std::runtime_error(index.directory +
+                             ": give the size of the images, camera.width and camera.height");
+  }
+  const ImageSize known = size ? *size : ImageSizeOf(index, index.entries.front(), kind);
+  camera->width = known.width;
+  camera->height = known.height;
+}
+
+// Sets the sizes that no source gives, and fits the calibration to those of the images.
+void FitToImages(int max_width, SequenceIndex* index, Calibration* calibration) {
+  const std::optional<ImageSize> depth = FindImageSize(*index, ImageKind::kDepth);
+  std::optional<ImageSize> color =
+      index->scale_color ? depth : FindImageSize(*index, ImageKind::kColor);
+  if (!color && !calibration->depth_camera) color = depth;  // registered to colour
+  SetMissingSize(color, *index, ImageKind::kColor, &calibration->camera);
+  if (calibration->depth_camera) {
+    SetMissingSize(depth, *index, ImageKind::kDepth, &calibration->depth_camera->camera);
+  }
+  if (color && depth) FitToImageSizes(*color, *depth, max_width, index, calibration);
 }
 
 }  // namespace
@@ -206,12 +234,7 @@ Calibration ResolveCalibration(const CameraSettings& settings, const std::string
   } else if (!settings.IsEmpty()) {
     calibration.origin += ", " + settings.origin;
   }
-  if (calibration.depth_camera) {
-    SetMissingSize(*index, ImageKind::kColor, &calibration.camera);
-    SetMissingSize(*index, ImageKind::kDepth, &calibration.depth_camera->camera);
-  } else {
-    SetMissingSize(*index, ImageKind::kDepth, &calibration.camera);
-  }
+  FitToImages(settings.max_width.value_or(kDefaultMaxWidth), index, &calibration);
   calibration.SetUndistorted();
   std::string error;
   if (!calibration.IsValid(&error)) {

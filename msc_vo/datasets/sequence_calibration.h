@@ -13,11 +13,11 @@ namespace msc_vo {
 /// Determines the calibration of a sequence. Sources in order of precedence: the values of
 /// `settings`, the preset named by `settings`, a file of the folder, the preset named by `preset`,
 /// the preset guessed from the folder. If all intrinsics and the depth scale are set, `settings` is
-/// the only source. A missing image size is taken from the first depth image. A guessed preset
-/// provides no readout time, because the name of a folder does not identify the shutter.
-/// Adds warnings for the user to `index->warnings`.
-/// Throws std::runtime_error, listing the alternatives, if the calibration is incomplete;
-/// std::invalid_argument on an unknown preset.
+/// the only source. A missing image size is taken from the first image, and the calibration is
+/// fitted to the sizes of the images, see FitToImageSizes(). A guessed preset provides no readout
+/// time, because the name of a folder does not identify the shutter. Adds warnings for the user to
+/// `index->warnings`. Throws std::runtime_error, listing the alternatives, if the calibration is
+/// incomplete; std::invalid_argument on an unknown preset.
 Calibration ResolveCalibration(const CameraSettings& settings, const std::string& preset,
                                SequenceIndex* index);
 
