@@ -42,6 +42,19 @@ void AddShortcuts(CLI::App* command, ReplayArguments* arguments) {
                     "wait for a late map");
 }
 
+// Poses on standard output, in place of the table of results.
+void AddPoseStreamArguments(CLI::App* command, ReplayArguments* arguments) {
+  CLI::Option* text =
+      command->add_flag("--stdout-poses", arguments->stdout_poses,
+                        "Print every pose as soon as it is known, one line per image: time, "
+                        "position, quaternion, standard deviations, status, world");
+  CLI::Option* json = command->add_flag("--stdout-poses-json", arguments->stdout_poses_json,
+                                        "The same with one JSON object per line");
+  CLI::Option* summary = command->get_option("--json");
+  text->excludes(json)->excludes(summary);
+  json->excludes(summary);
+}
+
 void AddPrintArguments(CLI::App* command, ReplayArguments* arguments) {
   CLI::Option* print =
       command->add_flag("--print-config", arguments->print_config,
@@ -88,6 +101,7 @@ CLI::App* AddReplayArguments(CLI::App* app, ReplayArguments* arguments) {
   AddMapArguments(command, &arguments->map);
   AddViewArguments(command, &arguments->view);
   AddRunArguments(command, &arguments->run);
+  AddPoseStreamArguments(command, arguments);
   command->add_flag("--no-check", arguments->no_check,
                     "Omit the quick check of the sequence before the run (see check)");
   command->add_option("--dump-windows", arguments->windows,
@@ -105,9 +119,13 @@ void CheckReplayArguments(const CLI::App& command, const ReplayArguments& argume
     if (!arguments.view.port.empty()) ViewPort(arguments.view);
     throw CLI::RequiredError("sequence");
   }
-  const std::set<std::string> allowed = {
-      "resume", "quiet",      "json",      "view",     "view-address", "overlay",
-      "strict", "max-frames", "log-level", "log-file", "help",         "checkpoint-interval"};
+  const std::set<std::string> allowed = {"resume",       "quiet",
+                                         "json",         "view",
+                                         "view-address", "overlay",
+                                         "strict",       "max-frames",
+                                         "log-level",    "log-file",
+                                         "help",         "checkpoint-interval",
+                                         "stdout-poses", "stdout-poses-json"};
   for (const CLI::Option* option : command.get_options()) {
     const std::string& name = option->get_single_name();
     if (option->count() == 0 || allowed.count(name) > 0) continue;
@@ -150,6 +168,8 @@ ReplayArguments StoredArguments(const std::vector<std::string>& typed, const std
   }
   arguments.run.quiet = given.run.quiet;
   arguments.run.json = given.run.json;
+  arguments.stdout_poses = given.stdout_poses;
+  arguments.stdout_poses_json = given.stdout_poses_json;
   arguments.run.strict |= given.run.strict;
   if (given.run.max_frames > 0) arguments.run.max_frames = given.run.max_frames;
   arguments.checkpoint_interval = given.checkpoint_interval;

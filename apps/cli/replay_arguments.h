@@ -40,9 +40,14 @@ struct ReplayArguments {
   bool no_loops = false;
   bool realtime = false;
   bool no_check = false;
+  bool stdout_poses = false;
+  bool stdout_poses_json = false;
   bool print_config = false;
   bool all = false;       ///< of --print-config
   bool markdown = false;  ///< of --print-config
+
+  /// Whether poses are printed as they become known.
+  bool StreamsPoses() const { return stdout_poses || stdout_poses_json; }
 };
 
 /// Declares the sub-command with its arguments.

@@ -27,6 +27,7 @@
 #include "msc_vo/results/result_files.h"
 #include "msc_vo/results/run_report.h"
 #include "msc_vo/results/sequence_identity.h"
+#include "msc_vo/results/streamed_pose.h"
 #include "msc_vo/results/summary_json.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
@@ -130,7 +131,7 @@ int WriteResults(const ReplayArguments& arguments, const std::string& output,
   }
   if (arguments.run.json) {
     std::cout << FormatSummaryJson(run.summary, run.context) << std::flush;
-  } else if (!arguments.run.quiet) {
+  } else if (!arguments.run.quiet && !arguments.StreamsPoses()) {
     std::cout << FormatRunTable(run.summary, run.context, output) << std::flush;
   }
   if (run.exit_code == kExitError) add_problem(run.context.outcome);
@@ -170,6 +171,14 @@ void ContinueWith(std::vector<FrameResult> frames, const RunMap& map, RunFiles* 
   files->Continue(frames);
 }
 
+// Prints the pose of a frame if that was asked for.
+void PrintPose(const ReplayArguments& arguments, const FrameResult& frame) {
+  if (!arguments.StreamsPoses()) return;
+  std::cout << FormatStreamedPose(frame, arguments.stdout_poses_json ? StreamedPoseForm::kJson
+                                                                     : StreamedPoseForm::kText)
+            << std::flush;
+}
+
 // Runs the odometry. `resumed`: null for a new run.
 int Run(const ReplayArguments& arguments, const Configuration& configuration, Resumed* resumed) {
   std::vector<std::string> check_warnings;
@@ -201,7 +210,9 @@ int Run(const ReplayArguments& arguments, const Configuration& configuration, Re
   RunCallbacks callbacks;
   callbacks.map = &map;
   callbacks.frame = [&](const FrameResult& frame) {
-    files.Add(map.Reported(frame));
+    const FrameResult reported = map.Reported(frame);
+    files.Add(reported);
+    PrintPose(arguments, reported);
     views.Add(frame, [&] { return interrupt.IsInterrupted(); });
   };
   callbacks.window = WindowRecorder(arguments.windows, decoder.index(), &window_problem);

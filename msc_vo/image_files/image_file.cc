@@ -45,9 +45,9 @@ cv::Mat DecodeImage(const std::string& bytes, int mode) {
   try {
     const cv::Mat image = DecodeCommonKind(bytes, mode);
     return image.empty() ? DecodeWithOpenCv(bytes, mode) : image;
-  } catch (const cv::Exception&) {  // too little memory, too
-    return {};
-  } catch (const std::bad_alloc&) {
+  } catch (const cv::Exception& error) {
+    // An image that does not fit into the memory is not damaged: frames must not depend on that.
+    if (error.code == cv::Error::StsNoMem) throw std::bad_alloc();
     return {};
   }
 }

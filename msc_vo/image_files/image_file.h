@@ -18,7 +18,8 @@ struct ImageSize {
 /// Decodes the contents of an image file (PNG, JPEG, BMP, TIFF, WebP, PBM, PGM or PPM); `mode` is
 /// one of OpenCV's cv::ImreadModes. Returns an empty image if the contents are damaged or no such
 /// image, and without decoding it if the header claims more pixels than the file can hold.
-/// Throws std::runtime_error if the file needs OpenCV's image formats and these are not installed.
+/// Throws std::runtime_error if the file needs OpenCV's image formats and these are not installed,
+/// and std::bad_alloc without enough memory, which does not make an image damaged.
 cv::Mat DecodeImage(const std::string& bytes, int mode);
 
 /// Reads an image with its original channels and bit depth. Returns an empty image if the file is

@@ -4,7 +4,9 @@
 #include "msc_vo/image_files/jpeg_image.h"
 
 #include <memory>
+#include <new>
 #include <stdexcept>
+#include <string>
 #include <type_traits>
 
 #include <turbojpeg.h>
@@ -20,14 +22,20 @@ struct DestroyTurboJpeg {
 };
 using TurboJpeg = std::unique_ptr<std::remove_pointer_t<tjhandle>, DestroyTurboJpeg>;
 
+// Whether the last error of a decoder was lack of memory, in the words of libjpeg.
+bool HasNoMemory(tjhandle decoder) {
+  return std::string(tjGetErrorStr2(decoder)).find("nsufficient memory") != std::string::npos;
+}
+
 }  // namespace
 
 cv::Mat DecodeJpeg(const std::string& bytes, JpegChannels channels) {
   const auto* const data = reinterpret_cast<const unsigned char*>(bytes.data());
   const TurboJpeg decoder(tjInitDecompress());
   int width, height, subsampling, colors;
-  if (decoder == nullptr || tjDecompressHeader3(decoder.get(), data, bytes.size(), &width, &height,
-                                                &subsampling, &colors) != 0) {
+  if (decoder == nullptr) throw std::bad_alloc();
+  if (tjDecompressHeader3(decoder.get(), data, bytes.size(), &width, &height, &subsampling,
+                          &colors) != 0) {
     return {};
   }
   if (colors == TJCS_CMYK || colors == TJCS_YCCK) return {};
@@ -37,6 +45,7 @@ cv::Mat DecodeJpeg(const std::string& bytes, JpegChannels channels) {
   if (tjDecompress2(decoder.get(), data, bytes.size(), image.data, width,
                     static_cast<int>(image.step), height, is_gray ? TJPF_GRAY : TJPF_BGR, 0) != 0 &&
       tjGetErrorCode(decoder.get()) != TJERR_WARNING) {
+    if (HasNoMemory(decoder.get())) throw std::bad_alloc();
     return {};
   }
   return image;  // warnings are of stray bytes, which some cameras write

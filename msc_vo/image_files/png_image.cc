@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <new>
 #include <optional>
 #include <string_view>
 
@@ -87,7 +88,7 @@ std::string ReadData(const std::string& bytes, size_t at) {
 std::unique_ptr<uint8_t[]> Inflate(const std::string& data, size_t num_bytes) {
   const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> inflater(
       libdeflate_alloc_decompressor(), &libdeflate_free_decompressor);
-  if (inflater == nullptr) return nullptr;
+  if (inflater == nullptr) throw std::bad_alloc();
   std::unique_ptr<uint8_t[]> rows(new uint8_t[num_bytes]);
   if (libdeflate_zlib_decompress(inflater.get(), data.data(), data.size(), rows.get(), num_bytes,
                                  nullptr) != LIBDEFLATE_SUCCESS) {

@@ -3,10 +3,16 @@
 
 // The decoders of common images against those of OpenCV.
 
+#include <cstdlib>
+#include <fstream>
+#include <new>
 #include <random>
 
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "msc_vo/image_files/image_file.h"
 #include "msc_vo/image_files/jpeg_image.h"
@@ -166,6 +172,40 @@ TEST(EncodeJpeg, CanBeDecoded) {
   ASSERT_EQ(decoded.size(), slope.size());
   EXPECT_LT(cv::norm(decoded, slope, cv::NORM_L1) / slope.total(), 3.0);
   EXPECT_LT(EncodeJpeg(slope, 20).size(), EncodeJpeg(slope, 95).size());
+}
+
+// Decodes in a process that may take a few more megabytes than it has. Exit code: 0 decoded, 1
+// taken for damaged, 2 lack of memory.
+[[noreturn]] void DecodeWithin(size_t more_bytes, const std::string& bytes, int mode) {
+  size_t num_pages = 0;
+  std::ifstream("/proc/self/statm") >> num_pages;
+  const rlim_t limit = num_pages * static_cast<size_t>(sysconf(_SC_PAGESIZE)) + more_bytes;
+  const rlimit limits = {limit, limit};
+  setrlimit(RLIMIT_AS, &limits);
+  try {
+    std::exit(DecodeImage(bytes, mode).empty() ? 1 : 0);
+  } catch (const std::bad_alloc&) {
+    std::exit(2);
+  }
+}
+
+// A run without enough memory ends; an image that it took for damaged would change its results.
+TEST(DecodeImageDeathTest, TellsLackOfMemoryFromDamage) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "AddressSanitizer reserves far more address space than any limit";
+#endif
+  const cv::Mat image = RandomImage(3000, 3000, CV_8UC3, 1);  // 27 MB
+  const std::string png = Encode(".png", image), jpeg = Encode(".jpg", image);
+  constexpr size_t kMegabyte = size_t{1} << 20;
+  for (const size_t megabytes : {1, 10, 20, 30, 40}) {
+    EXPECT_EXIT(
+        DecodeWithin(megabytes * kMegabyte, png, cv::IMREAD_UNCHANGED),
+        [](int status) { return WIFEXITED(status) && WEXITSTATUS(status) != 1; }, "");
+    EXPECT_EXIT(
+        DecodeWithin(megabytes * kMegabyte, jpeg, kGray),
+        [](int status) { return WIFEXITED(status) && WEXITSTATUS(status) != 1; }, "");
+  }
+  EXPECT_EXIT(DecodeWithin(kMegabyte, png, cv::IMREAD_UNCHANGED), testing::ExitedWithCode(2), "");
 }
 
 }  // namespace

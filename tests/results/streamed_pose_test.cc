@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/results/streamed_pose.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+namespace msc_vo {
+namespace {
+
+// A camera that looks along the x axis of the world, 2 m above its origin.
+FrameResult Frame() {
+  FrameResult frame;
+  frame.id = 7;
+  frame.timestamp = 12.5;
+  frame.status = TrackingStatus::kWeak;
+  const Eigen::Quaterniond turned(Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitY()));
+  frame.cam_from_world = Rigid3(turned, {0.0, 0.0, 2.0}).Inverse();
+  // 1 cm and 2 mrad in the camera frame.
+  frame.covariance = CovarianceOfCamera(frame.cam_from_world, IsotropicCovariance(0.002, 0.01));
+  return frame;
+}
+
+TEST(StreamedPose, WritesTheCameraInTheWorld) {
+  const std::string line = FormatStreamedPose(Frame(), StreamedPoseForm::kText);
+  EXPECT_EQ(line,
+            "12.500000 0 0 2 0 0.707106781 0 0.707106781 0.01 0.01 0.01 0.002 0.002 0.002 weak "
+            "0\n");
+  const auto json = nlohmann::json::parse(FormatStreamedPose(Frame(), StreamedPoseForm::kJson));
+  EXPECT_EQ(json["time"], 12.5);
+  EXPECT_EQ(json["frame"], 7);
+  EXPECT_EQ(json["position"][2], 2.0);
+  EXPECT_NEAR(json["orientation"][1].get<double>(), std::sqrt(0.5), 1e-12);
+  EXPECT_NEAR(json["sigma_rotation"][0].get<double>(), 0.002, 1e-9);
+  EXPECT_NEAR(json["sigma_position"][2].get<double>(), 0.01, 1e-9);
+  EXPECT_FALSE(json.contains("world_changed"));
+}
+
+TEST(StreamedPose, SaysWhatIsNotKnown) {
+  FrameResult frame = Frame();
+  frame.covariance.reset();
+  EXPECT_THAT(FormatStreamedPose(frame, StreamedPoseForm::kText),
+              testing::HasSubstr(" nan nan nan nan nan nan weak 0\n"));
+  EXPECT_THAT(FormatStreamedPose(frame, StreamedPoseForm::kJson),
+              testing::Not(testing::HasSubstr("sigma")));
+  frame.world = kNoSegment;
+  frame.status = TrackingStatus::kLost;
+  EXPECT_THAT(FormatStreamedPose(frame, StreamedPoseForm::kText),
+              testing::StartsWith("12.500000 nan nan nan nan"));
+  EXPECT_THAT(FormatStreamedPose(frame, StreamedPoseForm::kJson),
+              testing::Not(testing::HasSubstr("position")));
+}
+
+TEST(StreamedPose, SaysHowTheWorldChanges) {
+  FrameResult frame = Frame();
+  frame.world_changed = WorldChange{3, Rigid3(Eigen::Quaterniond::Identity(), {1.0, 0.0, 0.0})};
+  const auto json = nlohmann::json::parse(FormatStreamedPose(frame, StreamedPoseForm::kJson));
+  EXPECT_EQ(json["world_changed"]["old_world"], 3);
+  EXPECT_EQ(json["world_changed"]["position"][0], 1.0);
+}
+
+}  // namespace
+}  // namespace msc_vo
