@@ -48,6 +48,7 @@ Command AddRecordCommand(CLI::App* app);
 Command AddSolveWindowCommand(CLI::App* app);
 Command AddFuseCommand(CLI::App* app);
 Command AddMapCommand(CLI::App* app);
+Command AddExportCommand(CLI::App* app);
 Command AddGenerateCommand(CLI::App* app);  ///< hidden: manual pages and completion
 
 }  // namespace msc_vo

@@ -34,8 +34,6 @@ namespace msc_vo {
 
 namespace {
 
-// Largest difference of the stamps of an image and its pose, seconds: both come from the same list.
-constexpr double kMaxTimeDifference = 0.005;
 constexpr size_t kMaxReportBytes = size_t{256} << 20;
 
 struct FuseArguments {
@@ -86,7 +84,7 @@ std::vector<PosedImage> SelectImages(const FuseArguments& arguments, const RgbdD
   for (const TimedPose& pose : poses) pose_stamps.push_back(pose.timestamp);
   std::vector<PosedImage> images;
   int matched = 0;
-  for (const StampMatch& match : AssociateStamps(stamps, pose_stamps, kMaxTimeDifference)) {
+  for (const StampMatch& match : AssociateStamps(stamps, pose_stamps, kMaxPoseDelay)) {
     if (matched++ % arguments.every != 0) continue;
     images.push_back({match.reference, poses[match.query]});
   }

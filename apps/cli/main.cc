@@ -38,7 +38,7 @@ using AddCommand = Command (*)(CLI::App*);
 constexpr AddCommand kCommands[] = {
     AddReplayCommand,    AddEvaluateCommand, AddBenchmarkCommand,  AddCheckCommand,
     AddCalibrateCommand, AddRecordCommand,   AddSynthesizeCommand, AddSolveWindowCommand,
-    AddFuseCommand,      AddMapCommand,      AddGenerateCommand};
+    AddFuseCommand,      AddMapCommand,      AddExportCommand,     AddGenerateCommand};
 
 // Images and matrices of several megabytes are allocated and freed in every frame. By default the C
 // library returns such blocks to the system at once, and page faults on the next allocation cost

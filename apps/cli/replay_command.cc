@@ -171,8 +171,9 @@ void ContinueWith(std::vector<FrameResult> frames, const RunMap& map, RunFiles* 
   files->Continue(frames);
 }
 
-// Prints the pose of a frame if that was asked for.
-void PrintPose(const ReplayArguments& arguments, const FrameResult& frame) {
+// Writes a frame, and prints its pose if that was asked for.
+void TakeFrame(const ReplayArguments& arguments, const FrameResult& frame, RunFiles* files) {
+  files->Add(frame);
   if (!arguments.StreamsPoses()) return;
   std::cout << FormatStreamedPose(frame, arguments.stdout_poses_json ? StreamedPoseForm::kJson
                                                                      : StreamedPoseForm::kText)
@@ -210,9 +211,7 @@ int Run(const ReplayArguments& arguments, const Configuration& configuration, Re
   RunCallbacks callbacks;
   callbacks.map = &map;
   callbacks.frame = [&](const FrameResult& frame) {
-    const FrameResult reported = map.Reported(frame);
-    files.Add(reported);
-    PrintPose(arguments, reported);
+    TakeFrame(arguments, map.Reported(frame), &files);
     views.Add(frame, [&] { return interrupt.IsInterrupted(); });
   };
   callbacks.window = WindowRecorder(arguments.windows, decoder.index(), &window_problem);

@@ -51,7 +51,8 @@ std::string Text(const Json& json, const char* key) {
   return found != json.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
-// The sequence whose results are in a folder; none if there are no results or they do not say it.
+}  // namespace
+
 std::optional<SequenceIdentity> ReadIdentity(const std::string& directory) {
   if (const auto json = ReadJson(ResultFile(directory, "sequence.json"))) {
     return SequenceIdentity{Text(*json, "path"), Text(*json, "stamps"), Text(*json, "images")};
@@ -61,8 +62,6 @@ std::optional<SequenceIdentity> ReadIdentity(const std::string& directory) {
   if (!summary || !summary->contains("sequence") || !(*summary)["sequence"].is_object()) return {};
   return IdentifySequence(Text((*summary)["sequence"], "directory"));
 }
-
-}  // namespace
 
 bool SequenceIdentity::IsSame(const SequenceIdentity& other) const {
   if (path == other.path) return true;

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "msc_vo/datasets/sequence.h"
@@ -25,6 +26,9 @@ SequenceIdentity IdentifySequence(const std::string& directory);
 
 /// Writes sequence.json, which says of which sequence the results in `directory` are.
 void WriteIdentity(const std::string& directory, const SequenceIdentity& sequence);
+
+/// The sequence whose results are in a folder; none if there are no results or they do not say it.
+std::optional<SequenceIdentity> ReadIdentity(const std::string& directory);
 
 /// Throws std::runtime_error that names the other sequence if `directory` holds results of one.
 void RefuseToOverwriteOthers(const std::string& directory, const SequenceIdentity& sequence);

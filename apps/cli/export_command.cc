@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/cli/command_log.h"
+#include "apps/cli/commands.h"
+#include "apps/cli/configuration_arguments.h"
+#include "apps/cli/number_range.h"
+#include "apps/cli/sequence_arguments.h"
+#include "msc_vo/datasets/trajectory.h"
+#include "msc_vo/evaluation/association.h"
+#include "msc_vo/map_file/map_reader.h"
+#include "msc_vo/results/colmap_model.h"
+#include "msc_vo/results/map_export.h"
+#include "msc_vo/results/nerfstudio.h"
+#include "msc_vo/results/sequence_identity.h"
+#include "msc_vo/results/trajectory_export.h"
+#include "msc_vo/text/files.h"
+#include "msc_vo/text/format_text.h"
+
+namespace msc_vo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ExportArguments {
+  std::string run;
+  std::string format;
+  std::string output;
+  SequenceArguments sequence;  // its directory is that of the run if empty
+  ConfigurationArguments configuration;
+  int every = 1;
+  bool all_poses = false;
+  bool binary = false;
+};
+
+bool IsMapFormat(const std::string& format) { return format == "colmap" || format == "g2o"; }
+
+// The trajectory of a folder of results, or the file itself.
+std::string TrajectoryPath(const std::string& run) {
+  return IsFolder(run) ? (fs::path(run) / "trajectory.txt").string() : run;
+}
+
+std::vector<TimedPose> SelectPoses(const ExportArguments& arguments) {
+  const std::string path = TrajectoryPath(arguments.run);
+  std::vector<TimedPose> poses;
+  int number = 0;
+  for (const TimedPose& pose : ReadTrajectory(path)) {
+    if (!pose.is_estimated && !arguments.all_poses) continue;
+    if (number++ % arguments.every == 0) poses.push_back(pose);
+  }
+  if (poses.empty()) {
+    throw std::runtime_error(path + ": has no estimated pose; --all-poses takes the others, too");
+  }
+  return poses;
+}
+
+// The sequence that was given, or that of the results.
+std::string SequencePath(const ExportArguments& arguments) {
+  if (!arguments.sequence.directory.empty()) return arguments.sequence.directory;
+  const auto identity = ReadIdentity(arguments.run);
+  if (identity && !identity->path.empty()) return identity->path;
+  throw std::runtime_error(arguments.run +
+                           ": does not say of which sequence it is; give it with --sequence");
+}
+
+RgbdDecoder OpenImages(const ExportArguments& arguments) {
+  SequenceArguments sequence = arguments.sequence;
+  sequence.directory = SequencePath(arguments);
+  RgbdDecoder decoder = OpenDecoder(sequence, MakeConfiguration(arguments.configuration));
+  if (decoder.index().container) {
+    throw std::runtime_error(sequence.directory +
+                             ": has its images in one file, which the other program cannot read; "
+                             "make a folder of it with msc_vo record");
+  }
+  return decoder;
+}
+
+std::string ExportNerfstudio(const ExportArguments& arguments) {
+  const std::vector<TimedPose> poses = SelectPoses(arguments);
+  const RgbdDecoder decoder = OpenImages(arguments);
+  const Calibration& calibration = decoder.calibration();
+  std::vector<double> stamps, pose_stamps;
+  for (const SequenceEntry& entry : decoder.index().entries) stamps.push_back(entry.timestamp);
+  for (const TimedPose& pose : poses) pose_stamps.push_back(pose.timestamp);
+  std::vector<NerfstudioFrame> frames;
+  for (const StampMatch& match : AssociateStamps(stamps, pose_stamps, kMaxPoseDelay)) {
+    const SequenceEntry& entry = decoder.index().entries[static_cast<size_t>(match.reference)];
+    const auto absolute = [](const std::string& path) {
+      return fs::absolute(path).lexically_normal().string();
+    };
+    frames.push_back({absolute(entry.color_path),
+                      calibration.depth_camera ? "" : absolute(entry.depth_path),
+                      poses[static_cast<size_t>(match.query)].world_from_cam});
+  }
+  if (frames.empty()) {
+    throw std::runtime_error(TrajectoryPath(arguments.run) +
+                             ": none of its poses belongs to an image of " +
+                             decoder.index().directory);
+  }
+  return FormatNerfstudio(ExportCamera({calibration.camera, calibration.distortion}), frames);
+}
+
+std::string FormatPoses(const ExportArguments& arguments) {
+  if (arguments.format == "nerfstudio") return ExportNerfstudio(arguments);
+  const std::vector<TimedPose> poses = SelectPoses(arguments);
+  if (arguments.format == "kitti") return FormatKitti(poses);
+  return arguments.format == "euroc" ? FormatEuroc(poses) : FormatTrajectory(poses);
+}
+
+// The submap with most keyframes: other programs know one world only.
+SavedSubMap LargestSubMap(const std::string& file, MapContents* contents) {
+  if (contents->submaps.empty()) throw std::runtime_error(file + ": has no submap");
+  const auto largest =
+      std::max_element(contents->submaps.begin(), contents->submaps.end(),
+                       [](const SavedSubMap& a, const SavedSubMap& b) {
+                         return a.map.keyframes().size() < b.map.keyframes().size();
+                       });
+  if (contents->submaps.size() > 1) {
+    PrintWarning(FormatText("%s: of %zu submaps, submap %d with %zu keyframes is exported",
+                            file.c_str(), contents->submaps.size(), largest->id,
+                            largest->map.keyframes().size()));
+  }
+  return std::move(*largest);
+}
+
+// Names the image of a frame by the sequence, if that is given, or else by its number.
+std::function<std::string(const Frame&)> ImageNames(const ExportArguments& arguments) {
+  if (arguments.sequence.directory.empty()) {
+    return [](const Frame& frame) {
+      return FormatText("frame_%06lld.png", static_cast<long long>(frame.id));
+    };
+  }
+  const auto decoder = std::make_shared<const RgbdDecoder>(OpenImages(arguments));
+  return [decoder](const Frame& frame) {
+    for (const SequenceEntry& entry : decoder->index().entries) {
+      if (std::abs(entry.timestamp - frame.timestamp) > kMaxPoseDelay) continue;
+      return fs::path(entry.color_path).lexically_relative(decoder->index().directory).string();
+    }
+    throw std::runtime_error(FormatText("%s: has no image of the keyframe at %.6f s",
+                                        decoder->index().directory.c_str(), frame.timestamp));
+  };
+}
+
+void ExportMapFile(const ExportArguments& arguments) {
+  if (IsFolder(arguments.run)) {
+    throw std::runtime_error(arguments.run + ": results of a run have no observations of points; " +
+                             "run again with --map home.map, and export home.map");
+  }
+  RefuseToOverwrite({arguments.run}, arguments.output);
+  MapContents contents = LoadMap(arguments.run);
+  const SavedSubMap submap = LargestSubMap(arguments.run, &contents);
+  if (arguments.format == "g2o") {
+    WriteFile(arguments.output, FormatG2o(submap, contents.loops));
+    return;
+  }
+  const ColmapModel model = MakeColmapModel(submap.map, ImageNames(arguments));
+  MakeFolder(arguments.output);
+  for (const ModelFile& file :
+       arguments.binary ? FormatColmapBinary(model) : FormatColmapText(model)) {
+    WriteFile((fs::path(arguments.output) / file.name).string(), file.content);
+  }
+}
+
+int Export(const ExportArguments& arguments) {
+  if (IsMapFormat(arguments.format)) {
+    ExportMapFile(arguments);
+  } else {
+    RefuseToOverwrite({TrajectoryPath(arguments.run)}, arguments.output);
+    WriteFile(arguments.output, FormatPoses(arguments));
+  }
+  std::cout << "written to " << arguments.output << std::endl;
+  return kExitSuccess;
+}
+
+}  // namespace
+
+Command AddExportCommand(CLI::App* app) {
+  const auto arguments = std::make_shared<ExportArguments>();
+  CLI::App* command = app->add_subcommand(
+      "export", "Write the results of a run, or a map, in the format of another program");
+  command
+      ->add_option("run", arguments->run,
+                   "Folder of results, trajectory, or, for colmap and g2o, a map file of --map")
+      ->required();
+  command->add_option("format", arguments->format, "Format of the other program")
+      ->check(CLI::IsMember({"colmap", "euroc", "g2o", "kitti", "nerfstudio", "tum"}))
+      ->required();
+  command->add_option("output", arguments->output, "File to write; for colmap, a folder")
+      ->required();
+  command->add_option("--sequence", arguments->sequence.directory,
+                      "Sequence whose images nerfstudio and colmap name; default: that of the "
+                      "results, for colmap numbers");
+  AddLayoutArguments(command, &arguments->sequence);
+  AddConfigurationArguments(command, &arguments->configuration);
+  AddCameraFileArgument(command, &arguments->configuration);
+  command->add_option("--every", arguments->every, "Export every N-th pose only")
+      ->check(NumberFrom(1, 1e6))
+      ->capture_default_str();
+  command->add_flag("--all-poses", arguments->all_poses,
+                    "Also poses that are not estimated from the image, but predicted");
+  command->add_flag("--binary", arguments->binary, "For colmap: the binary form");
+  command->footer(HelpFooter("msc_vo export out/my_sequence nerfstudio transforms.json"));
+  return {command, [arguments] { return Export(*arguments); }};
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "msc_vo/geometry/rigid3.h"
+#include "msc_vo/results/exported_camera.h"
+
+namespace msc_vo {
+
+/// An image of nerfstudio's transforms.json.
+struct NerfstudioFrame {
+  std::string color_path;
+  std::string depth_path;  ///< registered to colour; empty: none
+  Rigid3 world_from_cam;
+};
+
+/// Formats transforms.json: the camera with its lens, and for each frame its files and the pose of
+/// the camera in the axes of OpenGL (x right, y up, z backwards).
+std::string FormatNerfstudio(const ExportedCamera& camera,
+                             const std::vector<NerfstudioFrame>& frames);
+
+}  // namespace msc_vo
