@@ -38,7 +38,8 @@ struct ColmapModel {
   std::vector<Point> points;
 };
 
-/// Keyframes of a map and the points that two of them or more observe. `name_of` gives the name of the image of a frame.
+/// Keyframes of a map and the points that two of them or more observe. `name_of` gives the name of
+/// the image of a frame.
 ColmapModel MakeColmapModel(const Map& map,
                             const std::function<std::string(const Frame&)>& name_of);
 
