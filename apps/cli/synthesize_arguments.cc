@@ -65,6 +65,14 @@ CLI::Validator SensorName() {
       "{" + names + "}");
 }
 
+SpecularOptions SpecularSurfaces(const SynthesizeArguments& arguments) {
+  const auto has = [&](const char* name) {
+    const auto& names = arguments.specular;
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  return {has("mirror"), has("glass"), has("floor"), has("screen")};
+}
+
 // Noise, artefacts and timing of the images.
 void AddSensorArguments(CLI::App* command, SynthesizeArguments* arguments) {
   command
@@ -73,6 +81,13 @@ void AddSensorArguments(CLI::App* command, SynthesizeArguments* arguments) {
                    "structured-light")
       ->check(SensorName())
       ->capture_default_str();
+  command
+      ->add_option("--depth-offset", arguments->depth_offset,
+                   "X,Y: displacement of the depth image of the sensor icl-nuim, pixels of a "
+                   "sensor with a focal length of 525 px")
+      ->delimiter(',')
+      ->expected(2)
+      ->check(NumberFrom(-100.0, 100.0));
   command
       ->add_option("--depth-bias", arguments->depth_bias,
                    "Amplitude of the smooth error of depth of time of flight, metres; default: "
@@ -177,6 +192,12 @@ void AddSequenceArguments(CLI::App* command, SynthesizeArguments* arguments) {
       ->check(CLI::IsMember(SceneKindNames()))
       ->capture_default_str();
   command
+      ->add_option("--specular", arguments->specular,
+                   "Surfaces of the room whose images show something that is not at their depth: "
+                   "mirror, glass, floor (polished), screen; a list")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"mirror", "glass", "floor", "screen"}));
+  command
       ->add_option("--frames", arguments->frames,
                    "Number of frames; default: 260, or until the end of a walk that is no loop")
       ->check(CLI::Range(1, 1000000));
@@ -258,6 +279,17 @@ SyntheticSequenceOptions SequenceOptions(const SynthesizeArguments& arguments) {
           "--depth-bias is an error of time of flight: give --depth-sensor tof");
     }
     options.time_of_flight.bias = arguments.depth_bias;
+  }
+  if (!arguments.depth_offset.empty()) {
+    if (options.depth != SyntheticDepth::kIclNuim) {
+      throw std::runtime_error(
+          "--depth-offset displaces the depth of ICL-NUIM's noise: give --depth-sensor icl-nuim");
+    }
+    options.icl_nuim.lateral_offset = {arguments.depth_offset[0], arguments.depth_offset[1]};
+  }
+  options.specular = SpecularSurfaces(arguments);
+  if (options.specular.Any() && options.scene != SceneKind::kRoom) {
+    throw std::runtime_error("--specular needs the scene room: give --scene room");
   }
   if (arguments.light > 0.0) options.photon_noise.emplace().light = arguments.light;
   if (arguments.hunting_exposure) options.hunting_exposure.emplace();

@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 
 #include "msc_vo/diagnosis/quantile.h"
+#include "msc_vo/self_calibration/noise_estimator.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
@@ -239,6 +240,37 @@ void AddLatencyFindings(const MotionTrack& track, Findings* findings) {
                  seconds > 0.0 ? "add" : "subtract", std::abs(seconds),
                  seconds > 0.0 ? "to" : "from"),
       measurement));
+}
+
+void AddNoiseFindings(const MotionTrack& track, Findings* findings) {
+  const std::string check = "depth.noise";
+  double largest = 0.0, smallest = NoiseEstimator::kMaxScale;
+  for (const NoiseScale& scale : track.noise_scales) {
+    largest = std::max({largest, scale.point_depth, scale.line_depth});
+    smallest = std::min({smallest, scale.point_depth, scale.line_depth});
+  }
+  if (track.noise_scales.empty()) return;
+  const std::string text = FormatText(
+      "errors of depth are %.2f to %.2f times those that the options expect", smallest, largest);
+  const Measurement measurement{largest, "ratio"};
+  if (largest < NoiseEstimator::kMaxScale) {
+    const bool at_bound = smallest <= 1.0 / NoiseEstimator::kMaxScale;
+    findings->push_back(
+        Good(check, text + (at_bound ? "; the smallest factor, so depth is nearly exact" : ""),
+             measurement));
+    return;
+  }
+  const std::string at_largest = text + "; the largest factor: depth contradicts the images";
+  const auto is_good = [](const Finding& f) { return f.severity == Severity::kGood; };
+  if (!std::all_of(findings->begin(), findings->end(), is_good)) {
+    findings->push_back(Good(check, at_largest, measurement));
+    return;
+  }
+  findings->push_back(Warning(check, at_largest,
+                              "check depth scale, registration and time stamps of depth; if they "
+                              "are right, set features.noise.inverse_depth_sigma to the error of "
+                              "the sensor",
+                              measurement));
 }
 
 }  // namespace msc_vo

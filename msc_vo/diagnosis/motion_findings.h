@@ -16,4 +16,9 @@ void AddFrameMotionFindings(const MotionTrack& track, int width, Findings* findi
 /// velocity of the image if depth is taken at another time than its stamp says.
 void AddLatencyFindings(const MotionTrack& track, Findings* findings);
 
+/// Errors of depth relative to the sigmas of the features. At the largest factor that the odometry
+/// uses, depth and images contradict each other; that is a warning unless `findings` already has
+/// one, which names the cause.
+void AddNoiseFindings(const MotionTrack& track, Findings* findings);
+
 }  // namespace msc_vo

@@ -119,6 +119,7 @@ class MotionTracker {
  private:
   // The images with an estimated pose.
   void AddResult(const OdometryResult& result, std::map<int64_t, MotionImage>* images) {
+    track_.noise_scales.push_back(result.noise_scale);
     const int first_segment = track_.images.empty() ? 0 : track_.images.back().segment + 1;
     bool was_estimated = false;
     for (const FrameResult& frame : result.frames) {

@@ -8,6 +8,7 @@
 #include "msc_vo/datasets/rgbd_decoder.h"
 #include "msc_vo/diagnosis/edge_alignment.h"
 #include "msc_vo/geometry/rigid3.h"
+#include "msc_vo/map/noise_scale.h"
 #include "msc_vo/odometry/odometry_options.h"
 #include "msc_vo/self_calibration/sensor_calibration.h"
 
@@ -44,6 +45,7 @@ struct MotionTrack {
   /// SelfCalibratingBundleAdjustment() of their maps.
   std::vector<CalibrationSequence> views;
   CalibrationInformation of_maps;
+  std::vector<NoiseScale> noise_scales;  ///< at the end of each stretch
 
   /// Maps coordinates of the first camera of a pair to the second one.
   Rigid3 MotionOf(const MotionPair& pair) const {

@@ -166,6 +166,7 @@ void AddMotionFindings(const RgbdDecoder& decoder, const OdometryOptions& option
   }
   AddGroundTruthMotionFindings(track, decoder.index().ground_truth, calibration.depth_scale,
                                IsCalibrated(*findings), findings);
+  AddNoiseFindings(track, findings);
 }
 
 bool HoldsNoDepth(const Findings& findings) {

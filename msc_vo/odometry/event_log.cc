@@ -3,6 +3,7 @@
 
 #include "msc_vo/odometry/event_log.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "msc_vo/geometry/so3.h"
 #include "msc_vo/logging/logger.h"
 #include "msc_vo/odometry/loss_cause.h"
+#include "msc_vo/self_calibration/noise_estimator.h"
 
 namespace msc_vo {
 
@@ -160,6 +162,13 @@ void EventLog::LogFinish(const NoiseScale& noise_scale, double readout_time, int
       "time {:.2f} ms",
       num_frames, noise_scale.point_depth, noise_scale.line_pixel, noise_scale.line_depth,
       1000.0 * readout_time);
+  const double largest = std::max(noise_scale.point_depth, noise_scale.line_depth);
+  if (largest >= NoiseEstimator::kMaxScale) {
+    Log().warn(
+        "depth contradicts the images: its noise scale is at its bound of {:g}; check depth scale, "
+        "registration and time stamps of depth (msc_vo check --deep)",
+        NoiseEstimator::kMaxScale);
+  }
 }
 
 }  // namespace msc_vo

@@ -133,5 +133,16 @@ TEST_F(EventLogTest, WritesNothingBelowTheLevel) {
   EXPECT_THAT(Lines(), ElementsAre());
 }
 
+TEST_F(EventLogTest, WarnsOfDepthThatContradictsTheImages) {
+  Log().set_level(spdlog::level::warn);
+  NoiseScale scale;
+  scale.line_depth = 2.9;
+  log_.LogFinish(scale, 0.0, 1);
+  EXPECT_THAT(Lines(), ElementsAre());
+  scale.point_depth = 3.0;
+  log_.LogFinish(scale, 0.0, 1);
+  EXPECT_THAT(Lines(), ElementsAre(HasSubstr("depth contradicts the images")));
+}
+
 }  // namespace
 }  // namespace msc_vo

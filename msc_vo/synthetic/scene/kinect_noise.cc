@@ -60,18 +60,21 @@ template <typename DrawOf>
 void Apply(const KinectNoiseOptions& options, const PinholeCamera& camera,
            std::vector<float>* depth, const DrawOf& draw_of) {
   const double lateral = options.lateral_sigma * (camera.FocalLength() / options.focal_length);
+  const Eigen::Vector2d offset =
+      options.lateral_offset * (camera.FocalLength() / options.focal_length);
   const double depth_times_disparity = options.focal_length * options.baseline;
   const std::vector<float> exact = *depth;
   for (size_t i = 0; i < exact.size(); ++i) {
     const int x = static_cast<int>(i % camera.width), y = static_cast<int>(i / camera.width);
     const PixelDraw draw = draw_of(i);
-    const double z = ShiftedDepth(camera, exact, x, y, lateral * draw.shift);
+    const double z = ShiftedDepth(camera, exact, x, y, lateral * draw.shift + offset);
     const double loss = (Slope(camera, exact, x, y) - options.keep_slope) /
                         (options.lose_slope - options.keep_slope);
     (*depth)[i] = 0.0f;
     if (z < options.min_depth || z > options.max_depth) continue;
     if (draw.uniform < std::min(loss, 0.95)) continue;
-    const double disparity = depth_times_disparity / z + options.disparity_sigma * draw.noise;
+    const double disparity =
+        depth_times_disparity / z + options.disparity_sigma * draw.noise + options.disparity_bias;
     const double rounded = options.disparity_step * std::round(disparity / options.disparity_step);
     if (rounded > 0.0) (*depth)[i] = static_cast<float>(depth_times_disparity / rounded);
   }
@@ -79,11 +82,27 @@ void Apply(const KinectNoiseOptions& options, const PinholeCamera& camera,
 
 }  // namespace
 
+KinectNoiseOptions IclNuimNoise() {
+  KinectNoiseOptions options;
+  options.lateral_sigma = 1.0;
+  options.disparity_step = options.focal_length * options.baseline / 351.3;
+  options.disparity_sigma = options.disparity_step / 6.0;
+  options.disparity_bias = 0.5 * options.disparity_step;
+  options.correlation = 0.1;  // neighbouring pixels are independent
+  options.min_depth = 0.0;
+  options.max_depth = 20.0;
+  options.keep_slope = 1e6;
+  options.lose_slope = 2e6;
+  return options;
+}
+
 bool KinectNoiseOptions::IsValid(std::string* error) const {
   if (!(focal_length > 0.0 && baseline > 0.0 && disparity_step > 0.0 && correlation > 0.0)) {
     *error = "kinect noise: focal_length, baseline, disparity_step, correlation must be positive";
   } else if (!(lateral_sigma >= 0.0 && disparity_sigma >= 0.0)) {
     *error = "kinect noise: lateral_sigma and disparity_sigma must not be negative";
+  } else if (!(std::abs(disparity_bias) <= 1.0 && lateral_offset.norm() <= 100.0)) {
+    *error = "kinect noise: disparity_bias must be from -1 to 1, lateral_offset at most 100 pixels";
   } else if (!(min_depth >= 0.0 && max_depth > min_depth)) {
     *error = "kinect noise: needs 0 <= min_depth < max_depth";
   } else if (!(lose_slope > keep_slope)) {

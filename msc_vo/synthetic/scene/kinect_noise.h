@@ -25,8 +25,12 @@ struct KinectNoiseOptions {
   double disparity_sigma = 0.05;  ///< pixels
   double correlation = 1.5;       ///< pixels, sigma of the Gaussian that smooths disparity noise
   double disparity_step = 0.125;  ///< pixels, resolution of the Kinect
-  double min_depth = 0.4;         ///< metres
-  double max_depth = 5.0;         ///< metres
+  /// Added to the disparity before it is rounded, pixels.
+  double disparity_bias = 0.0;
+  /// Displacement of the depth image, pixels: the depth of pixel p is looked up at p + offset.
+  Eigen::Vector2d lateral_offset = Eigen::Vector2d::Zero();
+  double min_depth = 0.4;  ///< metres
+  double max_depth = 5.0;  ///< metres
   /// Depth is lost on steep surfaces and at depth edges. The probability increases linearly from 0
   /// at keep_slope to 0.95 near lose_slope. A slope is the tangent of the angle between the ray and
   /// the surface normal: 3 is 72 degrees, 9 is 84 degrees.
@@ -35,6 +39,10 @@ struct KinectNoiseOptions {
 
   bool IsValid(std::string* error) const;
 };
+
+/// The noise of the noisy sequences of ICL-NUIM: disparity in steps of 1/351.3 1/m with noise of a
+/// sixth of a step, rounded half a step upwards; no lost pixels.
+KinectNoiseOptions IclNuimNoise();
 
 /// Applies the noise model to exact depth (metres along z, row by row, 0: none; camera.width *
 /// camera.height values). Deterministic for a given seed and frame. Throws std::invalid_argument on

@@ -13,6 +13,7 @@
 
 #include "msc_vo/synthetic/scene/quad_raster.h"
 #include "msc_vo/synthetic/scene/random.h"
+#include "msc_vo/synthetic/scene/specular_surface.h"
 
 namespace msc_vo {
 
@@ -188,6 +189,9 @@ Renderer::Renderer(Scene scene, const PinholeCamera& camera, RenderQuality quali
     : scene_(std::move(scene)), camera_(camera), quality_(quality) {
   std::string error;
   if (!camera.IsValid(&error)) throw std::invalid_argument("Renderer: " + error);
+  for (const SpecularSurface& surface : scene_.specular) {
+    reflections_.emplace_back(MirrorImage(scene_, surface.face), camera, quality);
+  }
 }
 
 RenderedImage Renderer::Render(const Rigid3& cam_from_world) const {
@@ -212,8 +216,8 @@ RenderedImage Renderer::BlankImage() const {
   return image;
 }
 
-void Renderer::DrawBand(const Rigid3& cam_from_world, const RowBand& band,
-                        RenderedImage* image) const {
+void Renderer::DrawDiffuse(const Rigid3& cam_from_world, const RowBand& band,
+                           RenderedImage* image) const {
   // The filter needs the neighbours of a pixel from the same pose.
   const RowBand padded{std::max(band.first - 1, 0), std::min(band.last + 1, camera_.height - 1)};
   const bool is_quick = quality_ == RenderQuality::kQuick;
@@ -232,6 +236,49 @@ void Renderer::DrawBand(const Rigid3& cam_from_world, const RowBand& band,
       if (hits.view[hit] < 0) continue;
       image->depth[pixel] = static_cast<float>(1.0 / hits.inverse_depth[hit]);
     }
+  }
+}
+
+void Renderer::DrawBand(const Rigid3& cam_from_world, const RowBand& band,
+                        RenderedImage* image) const {
+  DrawDiffuse(cam_from_world, band, image);
+  for (size_t i = 0; i < scene_.specular.size(); ++i) {
+    DrawSpecular(i, cam_from_world, band, image);
+  }
+}
+
+void Renderer::DrawSpecular(size_t index, const Rigid3& cam_from_world, const RowBand& band,
+                            RenderedImage* image) const {
+  const SpecularSurface& surface = scene_.specular[index];
+  Scene face;
+  face.quads = {surface.face};
+  const std::vector<QuadView> views = ViewQuads(face, camera_, cam_from_world, band);
+  if (views.empty()) return;
+  std::vector<size_t> visible;  // pixels
+  for (int y = band.first; y <= band.last; ++y) {
+    for (int x = 0; x < camera_.width; ++x) {
+      const Eigen::Vector3d pixel(x, y, 1.0);
+      const double w = views[0].inverse_depth.dot(pixel);
+      const size_t i = static_cast<size_t>(y) * camera_.width + x;
+      const bool is_hidden = image->depth[i] > 0.0f && w * image->depth[i] < 1.0;
+      if (w <= 0.0 || !views[0].Contains(pixel, w) || is_hidden) continue;
+      visible.push_back(i);
+    }
+  }
+  if (visible.empty()) return;
+  RenderedImage reflection = BlankImage();
+  const auto row = [&](size_t pixel) { return static_cast<int>(pixel / camera_.width); };
+  reflections_[index].DrawBand(cam_from_world, {row(visible.front()), row(visible.back())},
+                               &reflection);
+  for (const size_t i : visible) {
+    const Eigen::Vector3d pixel(static_cast<double>(i % camera_.width), row(i), 1.0);
+    for (size_t k = 0; k < 3; ++k) {
+      uint8_t& value = image->rgb[3 * i + k];
+      value = ToGrayValue(static_cast<float>(surface.reflectance) * reflection.rgb[3 * i + k] +
+                          static_cast<float>(surface.transmittance) * value +
+                          255.0f * surface.color[static_cast<int>(k)]);
+    }
+    image->depth[i] = static_cast<float>(1.0 / views[0].inverse_depth.dot(pixel));
   }
 }
 

@@ -49,9 +49,14 @@ class Renderer {
 
  private:
   RenderedImage BlankImage() const;
+  // Draws the rows of a band, without and with specular surfaces.
+  void DrawDiffuse(const Rigid3& cam_from_world, const RowBand& band, RenderedImage* image) const;
   void DrawBand(const Rigid3& cam_from_world, const RowBand& band, RenderedImage* image) const;
+  void DrawSpecular(size_t index, const Rigid3& cam_from_world, const RowBand& band,
+                    RenderedImage* image) const;
 
   Scene scene_;
+  std::vector<Renderer> reflections_;  // the mirror image of each specular surface
   PinholeCamera camera_;
   RenderQuality quality_;
 };

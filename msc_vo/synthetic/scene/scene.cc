@@ -38,6 +38,9 @@ std::vector<LineSegment3> Scene::PaintedEdges() const {
 double Scene::Clearance(const Eigen::Vector3d& x_in_world) const {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Quad& quad : quads) nearest = std::min(nearest, quad.Distance(x_in_world));
+  for (const SpecularSurface& s : specular) {
+    nearest = std::min(nearest, s.face.Distance(x_in_world));
+  }
   return nearest;
 }
 

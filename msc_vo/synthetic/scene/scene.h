@@ -42,6 +42,15 @@ struct PointLight {
   int zone = 0;
 };
 
+/// A mirror, a pane of glass or a polished surface. Its depth is that of its face; its colour is
+/// reflectance * (mirror image) + transmittance * (what is behind) + color.
+struct SpecularSurface {
+  Quad face;                                        ///< its texture is ignored
+  double reflectance = 0.0;                         ///< 0 to 1
+  double transmittance = 0.0;                       ///< 0 to 1
+  Eigen::Vector3f color = Eigen::Vector3f::Zero();  ///< red, green, blue, 0 to 1, lit
+};
+
 /// A camera position of a tour, which the spline approximates, and the point that the camera
 /// points at. Metres, world frame.
 struct Waypoint {
@@ -66,6 +75,7 @@ struct WalkOptions {
 /// A scene of textured rectangles; z is up.
 struct Scene {
   std::vector<Quad> quads;
+  std::vector<SpecularSurface> specular;  ///< a nearer one follows those that it may cover
   std::vector<PointLight> lights;
   double ambient = 0.35;  ///< brightness without any light
   /// Daylight from one side: surfaces with a normal n have the ambient brightness times

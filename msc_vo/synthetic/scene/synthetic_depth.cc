@@ -7,9 +7,9 @@ namespace msc_vo {
 
 namespace {
 
-constexpr SyntheticDepth kAll[] = {SyntheticDepth::kExact, SyntheticDepth::kStructuredLight,
+constexpr SyntheticDepth kAll[] = {SyntheticDepth::kExact,        SyntheticDepth::kStructuredLight,
                                    SyntheticDepth::kTimeOfFlight, SyntheticDepth::kStereo,
-                                   SyntheticDepth::kLidar};
+                                   SyntheticDepth::kLidar,        SyntheticDepth::kIclNuim};
 
 }  // namespace
 
@@ -25,6 +25,8 @@ const char* ToString(SyntheticDepth depth) {
       return "stereo";
     case SyntheticDepth::kLidar:
       return "lidar";
+    case SyntheticDepth::kIclNuim:
+      return "icl-nuim";
   }
   return "unknown";
 }

@@ -10,9 +10,16 @@
 namespace msc_vo {
 
 /// Sensor that measures the depth of a synthetic sequence.
-enum class SyntheticDepth { kExact, kStructuredLight, kTimeOfFlight, kStereo, kLidar };
+enum class SyntheticDepth {
+  kExact,
+  kStructuredLight,
+  kTimeOfFlight,
+  kStereo,
+  kLidar,
+  kIclNuim,  ///< structured light as in the noisy sequences of ICL-NUIM
+};
 
-/// "exact", "structured-light", "tof", "stereo" or "lidar".
+/// "exact", "structured-light", "tof", "stereo", "lidar" or "icl-nuim".
 const char* ToString(SyntheticDepth depth);
 
 /// The sensor with this name. "none" is exact depth, "kinect" structured light.

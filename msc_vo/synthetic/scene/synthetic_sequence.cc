@@ -29,6 +29,12 @@ const SyntheticSequenceOptions& Checked(const SyntheticSequenceOptions& options)
   return options;
 }
 
+Scene SceneOf(const SyntheticSequenceOptions& options) {
+  Scene scene = MakeScene(options.scene, options.seed, options.walk);
+  AddSpecularSurfaces(options.specular, &scene);
+  return scene;
+}
+
 PinholeCamera ColorCameraOf(const SyntheticSequenceOptions& options) {
   PinholeCamera camera = KinectCamera(options.width, options.height);
   if (options.focal_length > 0.0) camera.fx = camera.fy = options.focal_length;
@@ -120,10 +126,12 @@ bool SyntheticSequenceOptions::IsValid(std::string* error) const {
     *error = "accelerometer_rate must be positive";
   } else if (walk.returns && !HasLookAlikes(scene)) {
     *error = "walk.returns needs a scene with places that look alike";
+  } else if (specular.Any() && scene != SceneKind::kRoom) {
+    *error = "specular surfaces need the scene room";
   } else if (walk.path < 1) {
     *error = "walk.path must be at least 1";
   } else {
-    return kinect.IsValid(error) && path.IsValid(error);
+    return kinect.IsValid(error) && icl_nuim.IsValid(error) && path.IsValid(error);
   }
   return false;
 }
@@ -133,8 +141,7 @@ SyntheticSequence::SyntheticSequence(const SyntheticSequenceOptions& options)
       walk_seed_(WalkSeed(options)),
       camera_(ColorCameraOf(options)),
       warp_(WarpOf(options, camera_)),
-      renderer_(MakeScene(options.scene, options.seed, options.walk),
-                warp_ ? warp_->source() : camera_,
+      renderer_(SceneOf(options), warp_ ? warp_->source() : camera_,
                 options.quick ? RenderQuality::kQuick : RenderQuality::kFine),
       path_(renderer_.scene(), SeededPath(options)) {
   if (options.depth_rig) depth_renderer_.emplace(renderer_.scene(), DepthCameraOf(options));
@@ -278,6 +285,8 @@ void SyntheticSequence::AddDepthNoise(uint64_t stream, std::vector<float>* depth
       return AddStereoNoise(options_.stereo, depth_camera(), seed, stream, depth);
     case SyntheticDepth::kLidar:
       return AddLidarNoise(options_.lidar, depth_camera(), seed, stream, depth);
+    case SyntheticDepth::kIclNuim:
+      return AddKinectNoise(options_.icl_nuim, depth_camera(), seed, stream, depth);
   }
 }
 

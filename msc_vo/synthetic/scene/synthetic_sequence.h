@@ -21,6 +21,7 @@
 #include "msc_vo/synthetic/scene/photon_noise.h"
 #include "msc_vo/synthetic/scene/renderer.h"
 #include "msc_vo/synthetic/scene/scene.h"
+#include "msc_vo/synthetic/scene/specular_surface.h"
 #include "msc_vo/synthetic/scene/surface_view.h"
 #include "msc_vo/synthetic/scene/synthetic_depth.h"
 
@@ -38,7 +39,8 @@ struct SyntheticSequenceOptions {
   uint64_t seed = 1;  ///< of the scene, the path and the noise
   /// Which walk through the scene is recorded; other paths have other noise, too.
   WalkOptions walk;
-  int width = 640;  ///< pixels
+  SpecularOptions specular;  ///< needs SceneKind::kRoom
+  int width = 640;           ///< pixels
   int height = 480;
   /// Focal length, pixels; 0: that of KinectCamera().
   double focal_length = 0.0;
@@ -62,6 +64,7 @@ struct SyntheticSequenceOptions {
   SyntheticDepth depth = SyntheticDepth::kExact;
   bool kinect_depth = false;  ///< short for depth = SyntheticDepth::kStructuredLight
   KinectNoiseOptions kinect;
+  KinectNoiseOptions icl_nuim = IclNuimNoise();
   TimeOfFlightOptions time_of_flight;
   StereoOptions stereo;
   LidarOptions lidar;

@@ -176,5 +176,39 @@ TEST(KinectNoiseTest, ThrowsOnInvalidOptionsOrSize) {
   EXPECT_THROW(AddKinectNoise(options, kCamera, 1, 0, &good), std::invalid_argument);
 }
 
+// Depth of ICL-NUIM is a whole number of steps of 1/351.3 1/m, half a step nearer in the mean.
+TEST(KinectNoiseTest, OfIclNuimRoundsHalfAStepUpwards) {
+  double error = 0.0;  // of inverse depth, steps
+  int count = 0;
+  for (int i = 0; i < 20; ++i) {
+    const float z = 2.0f + 0.005f * static_cast<float>(i);
+    std::vector<float> depth = Flat(z);
+    AddKinectNoise(IclNuimNoise(), kCamera, 1, i, &depth);
+    for (const float noisy : depth) {
+      ASSERT_GT(noisy, 0.0f);
+      const double steps = 351.3 / noisy;
+      ASSERT_NEAR(steps, std::round(steps), 1e-3);
+      error += steps - 351.3 / z;
+      ++count;
+    }
+  }
+  EXPECT_NEAR(error / count, 0.5, 0.05);
+}
+
+TEST(KinectNoiseTest, DisplacesDepth) {
+  // The depth jumps between columns 159 and 160.
+  std::vector<float> depth = Flat(2.0f);
+  for (size_t i = 0; i < depth.size(); ++i) {
+    if (static_cast<int>(i % kCamera.width) >= 160) depth[i] = 3.0f;
+  }
+  KinectNoiseOptions options = IclNuimNoise();
+  options.lateral_sigma = 0.0;
+  options.lateral_offset = {8.0, 0.0};  // 4 px of this image
+  AddKinectNoise(options, kCamera, 1, 0, &depth);
+  const size_t row = static_cast<size_t>(100) * kCamera.width;
+  EXPECT_LT(depth[row + 155], 2.1f);
+  EXPECT_GT(depth[row + 156], 2.9f);
+}
+
 }  // namespace
 }  // namespace msc_vo
