@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <string_view>
 
 #include "msc_vo/text/files.h"
@@ -70,15 +69,6 @@ constexpr FileKind kKinds[] = {
     {"\x89PNG"sv, 0, "", "an image", kGiveFolder},
     {"\xff\xd8\xff"sv, 0, "", "an image", kGiveFolder}};
 
-// The beginning of a file, in which all magic bytes lie.
-std::string ReadBeginning(const std::string& path) {
-  std::string bytes(512, '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  bytes.resize(static_cast<size_t>(file.gcount()));
-  return bytes;
-}
-
 bool IsKind(const FileKind& kind, const std::string& bytes, const std::string& ending) {
   if (!kind.magic.empty()) {
     return bytes.size() >= kind.magic_at &&
@@ -90,7 +80,8 @@ bool IsKind(const FileKind& kind, const std::string& bytes, const std::string& e
 // Returns the kind of a file; null if it is unknown or cannot be read.
 const FileKind* FindKind(const std::string& path) {
   if (!FileProblem(path, UINTMAX_MAX).empty()) return nullptr;
-  const std::string bytes = ReadBeginning(path);
+  constexpr size_t kBeginning = 512;  // in which all magic bytes lie
+  const std::string bytes = ReadBeginning(path, kBeginning);
   const std::string ending = Lowercase(std::filesystem::path(path).extension().string());
   for (const FileKind& kind : kKinds) {
     if (IsKind(kind, bytes, ending)) return &kind;

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 #include <string_view>
 
@@ -29,14 +28,6 @@ bool IsRos2File(const std::string& path) {
   std::string ending = EndingOf(path);
   if (ending == ".zstd") ending = EndingOf(path.substr(0, path.size() - ending.size()));
   return ending == ".db3" || ending == ".mcap";
-}
-
-std::string FirstBytes(const std::string& path) {
-  std::string bytes(16, '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  bytes.resize(static_cast<size_t>(file.gcount()));
-  return bytes;
 }
 
 }  // namespace
@@ -114,7 +105,7 @@ std::unique_ptr<BagFile> OpenBagFile(const std::string& path) {
   const std::string problem = FileProblem(path, UINTMAX_MAX);
   if (!problem.empty()) throw std::runtime_error(path + ": " + problem);
   using std::string_view_literals::operator""sv;
-  const std::string bytes = FirstBytes(path);
+  const std::string bytes = ReadBeginning(path, 16);
   const auto begins_with = [&](std::string_view magic) {
     return bytes.compare(0, magic.size(), magic) == 0;
   };

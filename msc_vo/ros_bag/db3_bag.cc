@@ -12,6 +12,7 @@
 #include <sqlite3.h>
 
 #include "msc_vo/ros_bag/decompression.h"
+#include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
 
@@ -30,15 +31,21 @@ void Check(sqlite3* database, bool is_good) {
   if (!is_good) throw std::runtime_error(sqlite3_errmsg(database));
 }
 
+std::string UriOf(const std::string& file) {
+  std::string uri = "file:";
+  for (const char c : file) {
+    const bool has_meaning = c == '?' || c == '#' || c == '%';
+    uri += has_meaning ? FormatText("%%%02x", static_cast<unsigned>(c)) : std::string(1, c);
+  }
+  return uri;
+}
+
 Database Open(const std::string& file) {
-  // A recorder that was killed may have left a log beside the file, which a connection that may
-  // not write applies too. Where the folder forbids that, the file is read as it is.
+  // A recorder that was killed may have left a log beside the file, which SQLite takes into
+  // account. Where it cannot, in a folder that may not be written, the file is read as it is.
   for (const char* mode : {"?mode=ro", "?immutable=1"}) {
-    std::string uri = "file:";
-    for (const char c : file)
-      uri += c == '?' ? "%3f" : c == '#' ? "%23" : c == '%' ? "%25" : std::string(1, c);
     sqlite3* opened = nullptr;
-    const int result = sqlite3_open_v2((uri + mode).c_str(), &opened,
+    const int result = sqlite3_open_v2((UriOf(file) + mode).c_str(), &opened,
                                        SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
     Database database(opened);
     Check(opened, result == SQLITE_OK);

@@ -25,7 +25,7 @@ class LittleEndianFields {
     return value;
   }
   std::string_view Take(size_t count) {
-    if (count > bytes_.size()) throw std::runtime_error("the message ends too early");
+    if (count > bytes_.size()) throw std::runtime_error("the data end too early");
     const std::string_view taken = bytes_.substr(0, count);
     bytes_.remove_prefix(count);
     return taken;

@@ -3,32 +3,21 @@
 
 #include "msc_vo/ros_bag/ros2_bag.h"
 
-#include <fstream>
 #include <utility>
 
 #include "msc_vo/ros_bag/db3_bag.h"
 #include "msc_vo/ros_bag/decompression.h"
 #include "msc_vo/ros_bag/mcap_bag.h"
 #include "msc_vo/ros_bag/realsense_bag.h"
+#include "msc_vo/text/files.h"
 
 namespace msc_vo {
 
-namespace {
-
-std::string FirstBytes(const std::string& path, size_t count) {
-  std::string bytes(count, '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.read(bytes.data(), static_cast<std::streamsize>(count));
-  return bytes;
-}
-
-}  // namespace
-
 std::unique_ptr<BagFile> OpenRos2Bag(const std::string& path) {
   std::unique_ptr<TemporaryFile> unpacked;
-  if (IsZstd(FirstBytes(path, 4))) unpacked = UnpackZstdFile(path);
+  if (IsZstd(ReadBeginning(path, 4))) unpacked = UnpackZstdFile(path);
   const std::string file = unpacked ? unpacked->path() : path;
-  if (FirstBytes(file, 5) == "\x89MCAP") return OpenMcapBag(path, file);
+  if (ReadBeginning(file, 5) == "\x89MCAP") return OpenMcapBag(path, file);
   std::unique_ptr<BagFile> bag = OpenDb3Bag(path, file);
   return IsRealSenseBag(*bag) ? TranslateRealSenseBag(std::move(bag)) : std::move(bag);
 }

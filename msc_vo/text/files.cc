@@ -146,6 +146,14 @@ std::string ReadFile(const std::string& path, std::uintmax_t max_bytes) {
   return content;
 }
 
+std::string ReadBeginning(const std::string& path, size_t count) {
+  std::string bytes(count, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(bytes.data(), static_cast<std::streamsize>(count));
+  bytes.resize(static_cast<size_t>(file.gcount()));
+  return bytes;
+}
+
 std::vector<std::string> ListFolder(const std::string& folder) {
   const std::string problem = FolderProblem(folder);
   if (!problem.empty()) throw std::runtime_error(folder + ": " + problem + "; a folder is needed");

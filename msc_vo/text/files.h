@@ -38,6 +38,9 @@ std::string FolderProblem(const std::string& path);
 /// Throws std::runtime_error, naming the file, if it cannot be read or is larger than `max_bytes`.
 std::string ReadFile(const std::string& path, std::uintmax_t max_bytes = kMaxTextBytes);
 
+/// Returns the first bytes of a file, up to `count`; fewer if it is shorter or cannot be read.
+std::string ReadBeginning(const std::string& path, size_t count);
+
 /// Returns the full paths of the entries of a folder, in no particular order.
 /// Throws std::runtime_error, naming the folder, if it cannot be listed.
 std::vector<std::string> ListFolder(const std::string& folder);

@@ -188,9 +188,9 @@ TEST_F(BrokenSequenceTest, FindsDefectsOfDepth) {
   ExpectError("eight_bits", "images.decoding", Names("8 bits"), [](Recording* r) {
     ForAllImages(r, [](Recording::Image* i) { i->depth.convertTo(i->depth, CV_8U, 0.01); });
   });
-  ExpectError("size", "images.decoding", Names("160x120"), [](Recording* r) {
+  ExpectError("size", "images.decoding", Names("160x100"), [](Recording* r) {
     ForAllImages(r, [](Recording::Image* i) {
-      cv::resize(i->depth, i->depth, cv::Size(160, 120), 0, 0, cv::INTER_NEAREST);
+      cv::resize(i->depth, i->depth, cv::Size(160, 100), 0, 0, cv::INTER_NEAREST);
     });
   });
 }
