@@ -4,11 +4,14 @@
 #include "msc_vo/bundle_adjustment/stepwise_bundle_adjustment.h"
 
 #include <cmath>
+#include <cstdlib>
+#include <algorithm>
 #include <optional>
 #include <utility>
 
 #include "msc_vo/bundle_adjustment/internal/ceres_backend.h"
 #include "msc_vo/bundle_adjustment/internal/inlier_classification.h"
+#include "msc_vo/bundle_adjustment/internal/landmark_consensus.h"
 #include "msc_vo/bundle_adjustment/internal/landmark_noise.h"
 #include "msc_vo/bundle_adjustment/internal/window_validation.h"
 
@@ -85,7 +88,10 @@ class StepwiseBundleAdjustment::Solver {
         return GoTo(Phase::kSecondSolve);
       case Phase::kSecondSolve:
         if (Minimize()) return true;
-        return GoTo(is_usable_ ? Phase::kEnd : Phase::kDone);
+        if (!is_usable_) return GoTo(Phase::kDone);
+        return GoTo(getenv("SNOOP") != nullptr ? Phase::kSnoop : Phase::kEnd);
+      case Phase::kSnoop:
+        return GoTo(Snoop() ? Phase::kSecondTerms : Phase::kEnd);
       case Phase::kEnd:
         End();
         break;
@@ -104,6 +110,7 @@ class StepwiseBundleAdjustment::Solver {
     kRejection,
     kSecondTerms,
     kSecondSolve,
+    kSnoop,
     kEnd,
     kDone,
   };
@@ -129,10 +136,25 @@ class StepwiseBundleAdjustment::Solver {
 
   void RejectAndEstimateNoise() {
     RejectOutliers(options_, terms_, *state_, &inlier_mask_, &summary_);
+    if (getenv("SNOOP") != nullptr) FindConsensus(options_, index_, *data_, &*state_, &inlier_mask_);
     // A copy: *data_ must stay unchanged if the second solve fails.
     with_noise_ = *data_;
     EstimateLandmarkNoise(options_.landmark_noise, index_, inlier_mask_, *state_, &with_noise_);
   }
+
+  // Returns whether to solve again.
+  bool Snoop() {
+    static const int kMaxRounds = getenv("ROUNDS") ? atoi(getenv("ROUNDS")) : 3;
+    const WindowInlierMask before = inlier_mask_;
+    FindConsensus(options_, index_, *data_, &*state_, &inlier_mask_);
+    const bool changed = !(before.points == inlier_mask_.points && before.lines == inlier_mask_.lines);
+    if (changed && ++round_ < kMaxRounds) return true;
+    BuildTerms(with_noise_);
+    RejectOutliers(options_, terms_, *state_, &inlier_mask_, &summary_);
+    BuildTerms(with_noise_);
+    return false;
+  }
+  int round_ = 0;
 
   void StartMinimizer(int max_iterations) {
     max_iterations_ = max_iterations;
