@@ -165,7 +165,8 @@ class TestWindowMaker {
       window_.line_outliers[i] = true;
       LineSegment2& segment = window_.truth.line_observations[i].segment;
       const Eigen::Vector2d d = segment.Direction();
-      (at_start ? segment.start : segment.end) += side * kGrossError * Eigen::Vector2d(-d.y(), d.x());
+      (at_start ? segment.start : segment.end) +=
+          side * kGrossError * Eigen::Vector2d(-d.y(), d.x());
     }
   }
 

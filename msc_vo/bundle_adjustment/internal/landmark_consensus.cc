@@ -171,8 +171,8 @@ std::vector<bool> FindDeterminedOf(const PinholeCamera& camera, const WindowTerm
   for (size_t i = 0; i < landmarks.size(); ++i) {
     if (landmarks[i].fixed) determined[i] = true;
     if (determined[i]) continue;
-    determined[i] = RelativeSigma<Points>(camera, views[i], ValueOf<Points>(i, state)) <=
-                    kMaxRelativeSigma;
+    determined[i] =
+        RelativeSigma<Points>(camera, views[i], ValueOf<Points>(i, state)) <= kMaxRelativeSigma;
   }
   return determined;
 }

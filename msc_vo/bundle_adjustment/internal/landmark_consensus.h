@@ -21,10 +21,10 @@ namespace msc_vo {
 /// limit most is rejected, or only its depth if that suffices, and the search repeated with the
 /// rest. All observations are rejected if less than half are left or no residual tests those.
 ///
-/// Poses are held at `state`. Fits start at the landmarks of `data`, where the outlier has not moved
-/// them to. Overwrites the observations of *inlier_mask, without those behind the camera. A free
-/// landmark of *state takes the fitted value if an observation was rejected, or if the views do not
-/// determine it (FindDetermined).
+/// Poses are held at `state`. Fits start at the landmarks of `data`, where the outlier has not
+/// moved them to. Overwrites the observations of *inlier_mask, without those behind the camera. A
+/// free landmark of *state takes the fitted value if an observation was rejected, or if the views
+/// do not determine it (FindDetermined).
 void FindConsensus(const BundleAdjustmentOptions& options, const WindowIndex& index,
                    const WindowData& data, WindowState* state, WindowInlierMask* inlier_mask);
 
@@ -38,8 +38,8 @@ struct DeterminedLandmarks {
 /// position.
 constexpr double kMaxRelativeSigma = 1.0 / 3.0;
 
-/// Finds the landmarks that the geometry of their inlier views determines to kMaxRelativeSigma, with
-/// known poses. Fixed landmarks and those of relations and custom factors count as determined.
+/// Finds the landmarks that the geometry of their inlier views determines to kMaxRelativeSigma,
+/// with known poses. Fixed landmarks and those of relations and custom factors count as determined.
 DeterminedLandmarks FindDetermined(const BundleAdjustmentOptions& options, const WindowIndex& index,
                                    const WindowData& data, const WindowInlierMask& inlier_mask,
                                    const WindowState& state);

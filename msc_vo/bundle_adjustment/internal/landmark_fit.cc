@@ -84,9 +84,9 @@ class LandmarkFitter {
     const double sigma = kMaxHeldSigma * Distance(x_);
     const auto count = (eigen.eigenvalues().array() * (sigma * sigma) > 1.0).count();
     const Eigen::MatrixXd moves = basis_ * eigen.eigenvectors().rightCols(count);
-    const Vector step = moves * (moves.transpose() * at_->hessian * moves)
-                                    .ldlt()
-                                    .solve(moves.transpose() * at_->gradient);
+    const Vector step =
+        moves *
+        (moves.transpose() * at_->hessian * moves).ldlt().solve(moves.transpose() * at_->gradient);
     double scale = 1.0;
     for (int trial = 0; trial < kMaxTrials; ++trial, scale *= kShrinkage) {
       const Vector x = x_ - scale * step;
