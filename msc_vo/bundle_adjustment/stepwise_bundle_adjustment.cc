@@ -170,6 +170,7 @@ class StepwiseBundleAdjustment::Solver {
   void RejectAndEstimateNoise() {
     RejectOutliers(options_, terms_, *state_, &inlier_mask_, &summary_);
     if (options_.consensus.enabled) {
+      // Replaces the marks of observations, and keeps those of relations.
       FindConsensus(options_, index_, *data_, &*state_, &inlier_mask_);
     }
     // A copy: *data_ must stay unchanged if the second solve fails.
@@ -185,7 +186,8 @@ class StepwiseBundleAdjustment::Solver {
     return ++num_searches_ < kMaxSearches;
   }
 
-  // No observation that is beyond its limit at the solution remains an inlier.
+  // Leaves no inlier beyond its limit at the solution. ListUndetermined finds what loses its
+  // support.
   void ClassifyAtSolution() {
     EstimateLandmarkNoise(options_.landmark_noise, index_, inlier_mask_, *state_, &with_noise_);
     BuildTerms(with_noise_);

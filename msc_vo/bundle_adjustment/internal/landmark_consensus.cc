@@ -24,6 +24,7 @@ class ConsensusFinder {
   using Vector = Eigen::Matrix<double, 3 * Points, 1>;
   using Fit = LandmarkFit<Points>;
 
+  // The limits are those of the chi-square test of an observation without and with depth.
   ConsensusFinder(const PinholeCamera& camera, double limit, double limit_with_depth)
       : camera_(camera), limit_(limit), limit_with_depth_(limit_with_depth) {}
 
@@ -45,6 +46,10 @@ class ConsensusFinder {
       fit.x = start;
     }
     return fit;
+  }
+
+  bool IsDetermined(const Views<Points>& views, const Vector& landmark) const {
+    return RelativeSigma<Points>(camera_, views, landmark) <= kMaxRelativeSigma;
   }
 
  private:
@@ -142,10 +147,10 @@ struct CoupledLandmarks {
 
 // `terms`: of all observations to classify, at `start`.
 template <int Points, typename Landmark>
-void FindConsensusOf(const ConsensusFinder<Points>& finder, const PinholeCamera& camera,
-                     const WindowTerms& terms, const WindowState& start,
-                     const std::vector<Landmark>& landmarks, const std::vector<bool>& coupled,
-                     WindowState* state, std::vector<InlierMask>* inliers) {
+void FindConsensusOf(const ConsensusFinder<Points>& finder, const WindowTerms& terms,
+                     const WindowState& start, const std::vector<Landmark>& landmarks,
+                     const std::vector<bool>& coupled, WindowState* state,
+                     std::vector<InlierMask>* inliers) {
   auto views = ViewsOf<Points>(terms, start, landmarks.size());
   for (size_t i = 0; i < landmarks.size(); ++i) {
     for (const LandmarkView<Points>& view : views[i]) (*inliers)[view.source] = {};
@@ -156,8 +161,7 @@ void FindConsensusOf(const ConsensusFinder<Points>& finder, const PinholeCamera&
       (*inliers)[view.source] = {true, view.depth != nullptr};
     }
     if (landmarks[i].fixed || !std::isfinite(fit.cost)) continue;
-    if (views[i].size() < count ||
-        (!coupled[i] && RelativeSigma<Points>(camera, views[i], fit.x) > kMaxRelativeSigma)) {
+    if (views[i].size() < count || (!coupled[i] && !finder.IsDetermined(views[i], fit.x))) {
       std::copy(fit.x.data(), fit.x.data() + fit.x.size(), BlockOfLandmark<Points>(i, state));
     }
   }
@@ -190,10 +194,10 @@ void FindConsensus(const BundleAdjustmentOptions& options, const WindowIndex& in
   const CoupledLandmarks coupled(index, data, *inlier_mask);
   inlier_mask->points = in_front.points;
   inlier_mask->lines = in_front.lines;
-  FindConsensusOf<1>({data.camera, options.reject_chi2_2, options.reject_chi2_3}, data.camera,
-                     terms, start, data.points, coupled.points, state, &inlier_mask->points);
-  FindConsensusOf<2>({data.camera, options.reject_chi2_2, options.reject_chi2_4}, data.camera,
-                     terms, start, data.lines, coupled.lines, state, &inlier_mask->lines);
+  FindConsensusOf<1>({data.camera, options.reject_chi2_2, options.reject_chi2_3}, terms, start,
+                     data.points, coupled.points, state, &inlier_mask->points);
+  FindConsensusOf<2>({data.camera, options.reject_chi2_2, options.reject_chi2_4}, terms, start,
+                     data.lines, coupled.lines, state, &inlier_mask->lines);
 }
 
 DeterminedLandmarks FindDetermined(const BundleAdjustmentOptions& options, const WindowIndex& index,

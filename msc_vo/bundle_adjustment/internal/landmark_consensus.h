@@ -19,7 +19,8 @@ namespace msc_vo {
 /// if outlier i is left out and the landmark fitted again (FitLandmark). For an inlier, T_i is
 /// chi-square distributed with the rows of the observation. The observation whose T_i exceeds its
 /// limit most is rejected, or only its depth if that suffices, and the search repeated with the
-/// rest. All observations are rejected if less than half are left or no residual tests those.
+/// rest. If a search that rejected any leaves no more than half of the observations, or not more
+/// rows than degrees of freedom, it rejects all.
 ///
 /// Poses are held at `state`. Fits start at the landmarks of `data`, where the outlier has not
 /// moved them to. Overwrites the observations of *inlier_mask, without those behind the camera. A

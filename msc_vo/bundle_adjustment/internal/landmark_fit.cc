@@ -69,20 +69,23 @@ class LandmarkFitter {
   }
 
   double RelativeSigma() const {
-    if (!at_) return std::numeric_limits<double>::infinity();
-    const auto geometry = (basis_.transpose() * at_->geometry * basis_).eval();
-    const Eigen::SelfAdjointEigenSolver<std::decay_t<decltype(geometry)>> eigen(
-        geometry, Eigen::EigenvaluesOnly);
+    if (!at_ || views_.empty()) return std::numeric_limits<double>::infinity();
+    const Eigen::SelfAdjointEigenSolver<Moves> eigen(Geometry(), Eigen::EigenvaluesOnly);
     return 1.0 / (std::sqrt(std::max(0.0, eigen.eigenvalues()[0])) * Distance(x_));
   }
 
  private:
+  // Degrees of freedom of a point: 3, of a line: 4.
+  using Moves = Eigen::Matrix<double, 2 + Points, 2 + Points>;
+
+  Moves Geometry() const { return basis_.transpose() * at_->geometry * basis_; }
+
   // Moves in the determined directions. Returns whether the cost decreased.
   bool TakeStep() {
-    const auto geometry = (basis_.transpose() * at_->geometry * basis_).eval();
-    const Eigen::SelfAdjointEigenSolver<std::decay_t<decltype(geometry)>> eigen(geometry);
+    const Eigen::SelfAdjointEigenSolver<Moves> eigen(Geometry());
     const double sigma = kMaxHeldSigma * Distance(x_);
     const auto count = (eigen.eigenvalues().array() * (sigma * sigma) > 1.0).count();
+    if (count == 0) return false;
     const Eigen::MatrixXd moves = basis_ * eigen.eigenvectors().rightCols(count);
     const Vector step =
         moves *
