@@ -191,7 +191,12 @@ class StepwiseBundleAdjustment::Solver {
   void ClassifyAtSolution() {
     EstimateLandmarkNoise(options_.landmark_noise, index_, inlier_mask_, *state_, &with_noise_);
     BuildTerms(with_noise_);
-    RejectOutliers(options_, terms_, *state_, &inlier_mask_, &summary_);
+    // Relations are tested after the first solve only.
+    WindowInlierMask tested = inlier_mask_;
+    BundleAdjustmentSummary unused;
+    RejectOutliers(options_, terms_, *state_, &tested, &unused);
+    inlier_mask_.points = tested.points;
+    inlier_mask_.lines = tested.lines;
     BuildTerms(with_noise_);
     CountRejected(first_inlier_mask_.points, inlier_mask_.points, &summary_.point_reprojection,
                   &summary_.point_depth);

@@ -124,15 +124,13 @@ Eigen::Matrix<double, 3 * Points, 1> ValueOf(size_t i, const WindowState& state)
                                                           : state.LineBlock(i));
 }
 
-// Landmarks that relations or custom factors may determine.
+// Landmarks of the relations among the terms, or of custom factors, which may determine them.
 struct CoupledLandmarks {
-  CoupledLandmarks(const WindowIndex& index, const WindowData& data,
-                   const WindowInlierMask& inlier_mask)
+  CoupledLandmarks(const WindowIndex& index, const WindowData& data, const WindowTerms& terms)
       : points(data.points.size(), false), lines(data.lines.size(), false) {
     ForEachRelation([&](const auto& term) {
-      for (size_t i = 0; i < (index.*term.lines).size(); ++i) {
-        if (!(inlier_mask.*term.inliers)[i]) continue;
-        for (const int line : (index.*term.lines)[i]) lines[line] = true;
+      for (const auto& block : terms.Of<typename std::decay_t<decltype(term)>::Factor>().blocks) {
+        for (const int line : (index.*term.lines)[block.source]) lines[line] = true;
       }
     });
     for (const std::vector<StateBlock>& blocks : index.custom_factors) {
@@ -160,8 +158,8 @@ void FindConsensusOf(const ConsensusFinder<Points>& finder, const WindowTerms& t
     for (const LandmarkView<Points>& view : views[i]) {
       (*inliers)[view.source] = {true, view.depth != nullptr};
     }
-    if (landmarks[i].fixed || !std::isfinite(fit.cost)) continue;
-    if (views[i].size() < count || (!coupled[i] && !finder.IsDetermined(views[i], fit.x))) {
+    if (landmarks[i].fixed || coupled[i] || !std::isfinite(fit.cost)) continue;
+    if (views[i].size() < count || !finder.IsDetermined(views[i], fit.x)) {
       std::copy(fit.x.data(), fit.x.data() + fit.x.size(), BlockOfLandmark<Points>(i, state));
     }
   }
@@ -189,11 +187,11 @@ void FindConsensus(const BundleAdjustmentOptions& options, const WindowIndex& in
   for (size_t i = 0; i < at.keyframes.size(); ++i) at.keyframes[i].cam_from_world = state->Pose(i);
   const WindowState start(at);
   int num_behind = 0;
-  const WindowInlierMask in_front = InitialInlierMask(options, index, at, &num_behind);
-  const WindowTerms terms = MakeWindowTerms(options, at, index, in_front, start);
-  const CoupledLandmarks coupled(index, data, *inlier_mask);
-  inlier_mask->points = in_front.points;
-  inlier_mask->lines = in_front.lines;
+  WindowInlierMask in_front = InitialInlierMask(options, index, at, &num_behind);
+  inlier_mask->points = std::move(in_front.points);
+  inlier_mask->lines = std::move(in_front.lines);
+  const WindowTerms terms = MakeWindowTerms(options, at, index, *inlier_mask, start);
+  const CoupledLandmarks coupled(index, data, terms);
   FindConsensusOf<1>({data.camera, options.reject_chi2_2, options.reject_chi2_3}, terms, start,
                      data.points, coupled.points, state, &inlier_mask->points);
   FindConsensusOf<2>({data.camera, options.reject_chi2_2, options.reject_chi2_4}, terms, start,
@@ -204,7 +202,7 @@ DeterminedLandmarks FindDetermined(const BundleAdjustmentOptions& options, const
                                    const WindowData& data, const WindowInlierMask& inlier_mask,
                                    const WindowState& state) {
   const WindowTerms terms = MakeWindowTerms(options, data, index, inlier_mask, state);
-  const CoupledLandmarks coupled(index, data, inlier_mask);
+  const CoupledLandmarks coupled(index, data, terms);
   return {FindDeterminedOf<1>(data.camera, terms, state, data.points, coupled.points),
           FindDeterminedOf<2>(data.camera, terms, state, data.lines, coupled.lines)};
 }

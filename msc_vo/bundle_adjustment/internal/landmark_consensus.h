@@ -25,7 +25,8 @@ namespace msc_vo {
 /// Poses are held at `state`. Fits start at the landmarks of `data`, where the outlier has not
 /// moved them to. Overwrites the observations of *inlier_mask, without those behind the camera. A
 /// free landmark of *state takes the fitted value if an observation was rejected, or if the views
-/// do not determine it (FindDetermined).
+/// do not determine it (FindDetermined); those of relations and custom factors, which the fit
+/// ignores, keep theirs.
 void FindConsensus(const BundleAdjustmentOptions& options, const WindowIndex& index,
                    const WindowData& data, WindowState* state, WindowInlierMask* inlier_mask);
 
