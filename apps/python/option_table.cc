@@ -187,7 +187,8 @@ void BindOptions(py::module_* module) {
   BindTable<WindowOptionsTable>(
       module, "WindowOptions",
       "The options of local bundle adjustment by name: the options mapping.window.NAME of the "
-      "odometry, here called NAME. landmark_noise.enabled is off by default.");
+      "odometry, here called NAME. landmark_noise.enabled is off by default, consensus.enabled "
+      "on.");
 }
 
 }  // namespace msc_vo

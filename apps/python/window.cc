@@ -326,6 +326,12 @@ void BindSummary(py::module_* module) {
                     "Half the sum of robust squares before the first solve.")
       .def_readonly("final_cost", &BundleAdjustmentSummary::final_cost,
                     "The same after the second solve, without outliers.")
+      .def_readonly("undetermined_keyframes", &BundleAdjustmentSummary::undetermined_keyframes,
+                    "Ids of keyframes that the inliers do not determine, with consensus.enabled.")
+      .def_readonly("undetermined_points", &BundleAdjustmentSummary::undetermined_points,
+                    "The same for points.")
+      .def_readonly("undetermined_lines", &BundleAdjustmentSummary::undetermined_lines,
+                    "The same for lines.")
       .def_readonly("message", &BundleAdjustmentSummary::message, "Why the solver ended.")
       .def_property_readonly("terms", &TermsOf,
                              "Residual blocks, rejections and costs of every term.")

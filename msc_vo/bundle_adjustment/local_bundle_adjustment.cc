@@ -60,6 +60,12 @@ std::string BundleAdjustmentSummary::BriefReport() const {
                          term->num_residual_blocks, term->num_rejected, term->initial_cost,
                          term->final_cost);
   }
+  if (!undetermined_keyframes.empty() || !undetermined_points.empty() ||
+      !undetermined_lines.empty()) {
+    report += FormatText("\n  not determined: %zu keyframes, %zu points, %zu lines",
+                         undetermined_keyframes.size(), undetermined_points.size(),
+                         undetermined_lines.size());
+  }
   return report + "\n  " + schur_structure + (message.empty() ? "" : ": ") + message;
 }
 

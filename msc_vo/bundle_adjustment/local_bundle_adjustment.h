@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <utility>
@@ -23,6 +24,13 @@ struct TermOptions {
 struct LandmarkNoiseOptions {
   /// Off by default: covariances are then those of the given sigmas. MapperOptions enables it.
   bool enabled = false;
+};
+
+/// Search for gross errors that a landmark with few views has followed (docs/method.md).
+struct ConsensusOptions {
+  /// On by default, for windows from anywhere. MapperOptions disables it: its next window tests the
+  /// same observations again. Costs as much as a few steps, and up to two solves more.
+  bool enabled = true;
 };
 
 /// Solver of the nonlinear least-squares problem. All of them minimise the same functors and go to
@@ -65,6 +73,10 @@ struct BundleAdjustmentOptions {
   /// Noise factors and depth offsets are estimated after each of the two solves.
   LandmarkNoiseOptions landmark_noise;
 
+  /// After each solve, every observation is tested against the other views of its landmark, and the
+  /// second solve repeated while marks change.
+  ConsensusOptions consensus;
+
   int first_iterations = 5;    ///< Maximum number of steps with all observations.
   int second_iterations = 10;  ///< Maximum number of steps without outliers.
 
@@ -96,6 +108,9 @@ struct BundleAdjustmentSummary {
   TermSummary point_reprojection, point_depth, line_reprojection, line_depth, line_endpoint_prior;
   TermSummary parallel, perpendicular, manhattan, pose_prior, custom;
   int num_behind_camera = 0;  ///< Observations of landmarks behind the camera, marked as rejected.
+  /// With options.consensus, ids of items that the inliers do not determine: EstimateCovariance()
+  /// gives no covariance for them. Their values are estimates in the other directions at most.
+  std::vector<int64_t> undetermined_keyframes, undetermined_points, undetermined_lines;
   /// Structure of the normal equations; for Ceres solvers, its schur_structure_used.
   std::string schur_structure;
   std::string message;  ///< Reason for termination.
@@ -111,7 +126,8 @@ struct BundleAdjustmentSummary {
     archive.Fields(*this, usable, num_iterations, num_accepted, initial_cost, final_cost,
                    point_reprojection, point_depth, line_reprojection, line_depth,
                    line_endpoint_prior, parallel, perpendicular, manhattan, pose_prior, custom,
-                   num_behind_camera, schur_structure, message);
+                   num_behind_camera, undetermined_keyframes, undetermined_points,
+                   undetermined_lines, schur_structure, message);
   }
 };
 
@@ -138,6 +154,9 @@ using WindowStageObserver = std::function<void(WindowStage)>;
 ///   observations or prior.
 /// - Pairs and alignments are used only between observed lines of which at least one is free;
 ///   others are neither counted nor rejected.
+/// - With options.consensus, no observation without a mark is beyond its limit at the result, and
+///   the summary lists what is not determined. A landmark that its views do not determine moves
+///   only in the directions that they do, unless relations or custom factors couple it.
 /// - The gauge must be fixed by at least one keyframe that is fixed or has a prior, or by custom
 ///   factors. Without depth, the scale requires two of them.
 /// - Custom factors are not tested for outliers; a robust loss guards against these. A step is

@@ -4,13 +4,17 @@
 #include "msc_vo/bundle_adjustment/stepwise_bundle_adjustment.h"
 
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "msc_vo/bundle_adjustment/internal/ceres_backend.h"
 #include "msc_vo/bundle_adjustment/internal/inlier_classification.h"
+#include "msc_vo/bundle_adjustment/internal/landmark_consensus.h"
 #include "msc_vo/bundle_adjustment/internal/landmark_noise.h"
 #include "msc_vo/bundle_adjustment/internal/window_validation.h"
+#include "msc_vo/bundle_adjustment/window_covariance.h"
 
 namespace msc_vo {
 
@@ -31,6 +35,35 @@ void WriteCounts(const WindowTerms& terms, BundleAdjustmentSummary* summary) {
   ForEachTerm(terms, [summary](const auto& term, const auto& of_term) {
     (summary->*term.summary).num_residual_blocks = static_cast<int>(of_term.blocks.size());
   });
+}
+
+// Solves after the first search. More change few marks, see docs/lab/bundle_adjustment.md.
+constexpr int kMaxSearches = 3;
+
+void CountRejected(const std::vector<InlierMask>& before, const std::vector<InlierMask>& after,
+                   TermSummary* reprojection, TermSummary* depth) {
+  reprojection->num_rejected = depth->num_rejected = 0;
+  for (size_t i = 0; i < before.size(); ++i) {
+    reprojection->num_rejected += before[i].reprojection && !after[i].reprojection;
+    depth->num_rejected += before[i].depth && after[i].reprojection && !after[i].depth;
+  }
+}
+
+template <typename Item>
+std::vector<int64_t> IdsOf(const std::vector<Item>& items) {
+  std::vector<int64_t> ids;
+  for (const Item& item : items) ids.push_back(item.id);
+  return ids;
+}
+
+template <typename Matrix>
+std::vector<int64_t> Undetermined(const std::vector<int64_t>& ids,
+                                  const std::vector<std::optional<Matrix>>& covariances) {
+  std::vector<int64_t> undetermined;
+  for (size_t i = 0; i < ids.size(); ++i) {
+    if (!covariances[i]) undetermined.push_back(ids[i]);
+  }
+  return undetermined;
 }
 
 // Writes the solution and the rejection marks. Keyframes and landmarks without residual blocks in
@@ -85,7 +118,12 @@ class StepwiseBundleAdjustment::Solver {
         return GoTo(Phase::kSecondSolve);
       case Phase::kSecondSolve:
         if (Minimize()) return true;
-        return GoTo(is_usable_ ? Phase::kEnd : Phase::kDone);
+        if (!is_usable_) return GoTo(Phase::kDone);
+        return GoTo(options_.consensus.enabled ? Phase::kSearch : Phase::kEnd);
+      case Phase::kSearch:
+        if (SearchOutliers()) return GoTo(Phase::kSecondTerms);
+        ClassifyAtSolution();
+        return GoTo(Phase::kEnd);
       case Phase::kEnd:
         End();
         break;
@@ -104,6 +142,7 @@ class StepwiseBundleAdjustment::Solver {
     kRejection,
     kSecondTerms,
     kSecondSolve,
+    kSearch,
     kEnd,
     kDone,
   };
@@ -120,6 +159,7 @@ class StepwiseBundleAdjustment::Solver {
     Enter(WindowStage::kBuild);
     index_ = ValidateWindow(options_, *data_);
     inlier_mask_ = InitialInlierMask(options_, index_, *data_, &summary_.num_behind_camera);
+    first_inlier_mask_ = inlier_mask_;
     state_.emplace(*data_);
   }
 
@@ -129,9 +169,39 @@ class StepwiseBundleAdjustment::Solver {
 
   void RejectAndEstimateNoise() {
     RejectOutliers(options_, terms_, *state_, &inlier_mask_, &summary_);
+    if (options_.consensus.enabled) {
+      // Replaces the marks of observations, and keeps those of relations.
+      FindConsensus(options_, index_, *data_, &*state_, &inlier_mask_);
+    }
     // A copy: *data_ must stay unchanged if the second solve fails.
     with_noise_ = *data_;
     EstimateLandmarkNoise(options_.landmark_noise, index_, inlier_mask_, *state_, &with_noise_);
+  }
+
+  // Returns whether to solve again.
+  bool SearchOutliers() {
+    const WindowInlierMask before = inlier_mask_;
+    FindConsensus(options_, index_, *data_, &*state_, &inlier_mask_);
+    if (before.points == inlier_mask_.points && before.lines == inlier_mask_.lines) return false;
+    return ++num_searches_ < kMaxSearches;
+  }
+
+  // Leaves no inlier beyond its limit at the solution. ListUndetermined finds what loses its
+  // support.
+  void ClassifyAtSolution() {
+    EstimateLandmarkNoise(options_.landmark_noise, index_, inlier_mask_, *state_, &with_noise_);
+    BuildTerms(with_noise_);
+    // Relations are tested after the first solve only.
+    WindowInlierMask tested = inlier_mask_;
+    BundleAdjustmentSummary unused;
+    RejectOutliers(options_, terms_, *state_, &tested, &unused);
+    inlier_mask_.points = tested.points;
+    inlier_mask_.lines = tested.lines;
+    BuildTerms(with_noise_);
+    CountRejected(first_inlier_mask_.points, inlier_mask_.points, &summary_.point_reprojection,
+                  &summary_.point_depth);
+    CountRejected(first_inlier_mask_.lines, inlier_mask_.lines, &summary_.line_reprojection,
+                  &summary_.line_depth);
   }
 
   void StartMinimizer(int max_iterations) {
@@ -169,12 +239,24 @@ class StepwiseBundleAdjustment::Solver {
       return;
     }
     Enter(WindowStage::kWriteBack);
-    EstimateLandmarkNoise(options_.landmark_noise, index_, inlier_mask_, *state_, &with_noise_);
+    if (!options_.consensus.enabled) {
+      EstimateLandmarkNoise(options_.landmark_noise, index_, inlier_mask_, *state_, &with_noise_);
+    }
     WriteBack(terms_, inlier_mask_, *state_, &with_noise_);
     // A result that a later bundle adjustment would refuse is none.
     summary_.usable = HasValidState(with_noise_, &summary_.message);
+    if (summary_.usable && options_.consensus.enabled) ListUndetermined();
     if (summary_.usable) *data_ = std::move(with_noise_);
     Enter(WindowStage::kDone);
+  }
+
+  void ListUndetermined() {
+    const CovarianceSelection all{IdsOf(with_noise_.keyframes), IdsOf(with_noise_.points),
+                                  IdsOf(with_noise_.lines)};
+    const WindowCovariance covariance = EstimateCovariance(options_, with_noise_, all);
+    summary_.undetermined_keyframes = Undetermined(all.keyframes, covariance.keyframes);
+    summary_.undetermined_points = Undetermined(all.points, covariance.points);
+    summary_.undetermined_lines = Undetermined(all.lines, covariance.lines);
   }
 
   const BundleAdjustmentOptions options_;
@@ -183,7 +265,8 @@ class StepwiseBundleAdjustment::Solver {
   const WindowStageObserver enter_stage_;
   Phase phase_ = Phase::kBegin;
   WindowIndex index_;
-  WindowInlierMask inlier_mask_;
+  WindowInlierMask first_inlier_mask_, inlier_mask_;
+  int num_searches_ = 0;
   std::optional<WindowState> state_;
   WindowTerms terms_;                             // of the present solve
   std::optional<BlockSchurMinimizer> minimizer_;  // of the present solve, unless it is one of Ceres

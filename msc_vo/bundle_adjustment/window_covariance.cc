@@ -9,6 +9,7 @@
 
 #include "msc_vo/bundle_adjustment/internal/covariance_blocks.h"
 #include "msc_vo/bundle_adjustment/internal/inlier_classification.h"
+#include "msc_vo/bundle_adjustment/internal/landmark_consensus.h"
 #include "msc_vo/bundle_adjustment/internal/landmark_noise.h"
 #include "msc_vo/geometry/so3.h"
 
@@ -101,6 +102,15 @@ std::vector<std::optional<Matrix>> Collect(const std::vector<Item>& items,
   return covariances;
 }
 
+// Removes the covariances of landmarks that their views do not determine.
+template <typename Matrix>
+void KeepDetermined(const std::vector<int>& positions, const std::vector<bool>& determined,
+                    std::vector<std::optional<Matrix>>* covariances) {
+  for (size_t i = 0; i < positions.size(); ++i) {
+    if (!determined[positions[i]]) (*covariances)[i].reset();
+  }
+}
+
 }  // namespace
 
 WindowCovariance EstimateCovariance(const BundleAdjustmentOptions& options,
@@ -128,16 +138,20 @@ WindowCovariance EstimateCovariance(const BundleAdjustmentOptions& options,
                              Unknowns(lines, structure.line), Unknowns(extra, structure.extra)},
                             &blocks);
   }
-  return {Collect(solved.keyframes, keyframes, structure.pose, equations.pose_hessian, blocks.poses,
-                  [](int) { return 6; }),
-          Collect(solved.points, points, structure.point, equations.points.hessian, blocks.points,
-                  [](int) { return 3; }),
-          Collect(solved.lines, lines, structure.line, equations.lines.hessian, blocks.lines,
-                  [](int) { return 6; }),
-          Collect(solved.extra_blocks, extra, structure.extra, equations.extra_hessian,
-                  blocks.extra, [&state](int i) {
-                    return state.TangentSize({BlockKind::kExtra, i});
-                  })};
+  WindowCovariance result{Collect(solved.keyframes, keyframes, structure.pose,
+                                  equations.pose_hessian, blocks.poses, [](int) { return 6; }),
+                          Collect(solved.points, points, structure.point, equations.points.hessian,
+                                  blocks.points, [](int) { return 3; }),
+                          Collect(solved.lines, lines, structure.line, equations.lines.hessian,
+                                  blocks.lines, [](int) { return 6; }),
+                          Collect(solved.extra_blocks, extra, structure.extra,
+                                  equations.extra_hessian, blocks.extra, [&state](int i) {
+                                    return state.TangentSize({BlockKind::kExtra, i});
+                                  })};
+  const DeterminedLandmarks determined = FindDetermined(options, index, solved, inlier_mask, state);
+  KeepDetermined(points, determined.points, &result.points);
+  KeepDetermined(lines, determined.lines, &result.lines);
+  return result;
 }
 
 // With c = -R^T t and R' = Exp(w) R, t' = t + u:  c' = c - R^T (u - w x t),  R'^T = Exp(-R^T w)

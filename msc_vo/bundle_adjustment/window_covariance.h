@@ -18,7 +18,8 @@ struct CovarianceSelection {
 };
 
 /// Marginal covariances in the order of a CovarianceSelection. Zero for fixed items; empty where
-/// the window does not determine an item, such as a point observed once without depth.
+/// the window does not determine an item, such as a point observed once without depth, or a
+/// landmark whose standard deviation exceeds a third of its distance from the nearest camera.
 struct WindowCovariance {
   /// Of (w, u) in the tangent space of Rigid3Manifold, where the true cam_from_world is
   /// (Exp(w) q, t + u): rotation vector in the camera frame (radians), then translation (metres).

@@ -25,6 +25,7 @@ inline BundleAdjustmentOptions MapperBundleAdjustmentOptions() {
   options.first_iterations = 2;
   options.second_iterations = 1;
   options.landmark_noise.enabled = true;
+  options.consensus.enabled = false;
   return options;
 }
 

@@ -35,6 +35,11 @@ void ListLandmarkNoise(LandmarkNoiseOptions* noise, OptionLister* list) {
   list->Add("enabled", &noise->enabled, "Estimate a noise scale for each landmark.");
 }
 
+void ListConsensus(ConsensusOptions* consensus, OptionLister* list) {
+  list->Add("enabled", &consensus->enabled,
+            "Test every observation against the other views of its landmark.");
+}
+
 void ListHuber(TermOptions* term, OptionLister* list) {
   list->Add("huber", &term->huber, {0.01, 1000, "sigmas"}, "Huber threshold of the term.");
 }
@@ -75,6 +80,7 @@ void ListWindow(BundleAdjustmentOptions* window, OptionLister* list) {
             "Iterations of the second solve, without outliers.");
   ListTerms(ListTerm, window, list);
   list->Section("landmark_noise", &window->landmark_noise, ListLandmarkNoise);
+  list->Section("consensus", &window->consensus, ListConsensus);
 }
 
 void ListPairs(StructuralPairOptions* pairs, OptionLister* list) {

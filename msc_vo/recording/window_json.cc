@@ -15,6 +15,9 @@ std::string FormatWindowJson(const BundleAdjustmentSummary& summary, double mill
                {"initial_cost", summary.initial_cost},
                {"final_cost", summary.final_cost},
                {"behind_camera", summary.num_behind_camera},
+               {"undetermined_keyframes", summary.undetermined_keyframes},
+               {"undetermined_points", summary.undetermined_points},
+               {"undetermined_lines", summary.undetermined_lines},
                {"schur_structure", summary.schur_structure}};
   for (const auto& [name, term] : summary.Terms()) {
     json["terms"][name] = {{"residual_blocks", term->num_residual_blocks},

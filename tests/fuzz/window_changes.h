@@ -113,7 +113,8 @@ class WindowChanges {
     std::vector<double*> numbers = {&options->line_endpoint_prior_sigma, &options->reject_chi2_1,
                                     &options->reject_chi2_2, &options->reject_chi2_3,
                                     &options->reject_chi2_4};
-    std::vector<bool*> flags = {&options->landmark_noise.enabled, &options->line_endpoint_prior};
+    std::vector<bool*> flags = {&options->landmark_noise.enabled, &options->consensus.enabled,
+                                &options->line_endpoint_prior};
     for (TermOptions* term : terms) {
       numbers.push_back(&term->huber);
       flags.push_back(&term->enabled);

@@ -17,7 +17,7 @@ namespace {
 class TestWindowMaker {
  public:
   explicit TestWindowMaker(const TestWindowOptions& options)
-      : options_(options), random_(options.seed) {}
+      : options_(options), random_(options.seed), gross_(options.seed + 1000003u) {}
 
   TestWindow Make() {
     window_.truth.camera.fy = options_.fy;
@@ -25,6 +25,7 @@ class TestWindowMaker {
     MakeLandmarks();
     for (const auto& p : window_.truth.points) ObservePoint(p);
     for (const auto& l : window_.truth.lines) ObserveLine(l);
+    AddGrossErrors();
     window_.data = window_.truth;
     Perturb();
     return window_;
@@ -41,9 +42,11 @@ class TestWindowMaker {
   }
 
   void MakeKeyframes() {
+    const bool straight = options_.lines_along_motion;
     for (int i = 0; i < options_.num_keyframes; ++i) {
       const double u = i - 0.5 * (options_.num_keyframes - 1);
-      const Eigen::Vector3d centre(0.12 * u, 0.05 * std::sin(1.3 * i), 0.03 * u);
+      const Eigen::Vector3d centre(0.12 * u, straight ? 0.0 : 0.05 * std::sin(1.3 * i),
+                                   straight ? 0.0 : 0.03 * u);
       const Eigen::Quaterniond turn =
           ExpSO3(Eigen::Vector3d(0.03 * std::cos(i), -0.02 * u, 0.02 * std::sin(i)));
       WindowData::Keyframe keyframe;
@@ -67,7 +70,8 @@ class TestWindowMaker {
       LineSegment3 segment;
       segment.start = InRoom();
       segment.end = segment.start;
-      segment.end[i % 3] += segment.start[i % 3] > 0.0 && i % 3 != 2 ? -0.8 : 0.8;
+      const int axis = i % (options_.lines_along_motion ? 2 : 3);
+      segment.end[axis] += segment.start[axis] > 0.0 && axis != 2 ? -0.8 : 0.8;
       window_.truth.lines.push_back({50 + 2 * i, segment, false});
     }
   }
@@ -144,6 +148,28 @@ class TestWindowMaker {
     }
   }
 
+  void AddGrossErrors() {
+    constexpr double kGrossError = 20.0;  // pixels
+    std::uniform_real_distribution<double> uniform(0.0, 1.0);
+    for (size_t i = 0; i < window_.point_outliers.size(); ++i) {
+      const double chance = uniform(gross_), angle = 2.0 * kPi * uniform(gross_);
+      if (chance >= options_.gross_error_ratio) continue;
+      window_.point_outliers[i] = true;
+      window_.truth.point_observations[i].pixel +=
+          kGrossError * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+    }
+    for (size_t i = 0; i < window_.line_outliers.size(); ++i) {
+      const double chance = uniform(gross_), side = uniform(gross_) < 0.5 ? -1.0 : 1.0;
+      const bool at_start = uniform(gross_) < 0.5;
+      if (chance >= options_.gross_error_ratio) continue;
+      window_.line_outliers[i] = true;
+      LineSegment2& segment = window_.truth.line_observations[i].segment;
+      const Eigen::Vector2d d = segment.Direction();
+      (at_start ? segment.start : segment.end) +=
+          side * kGrossError * Eigen::Vector2d(-d.y(), d.x());
+    }
+  }
+
   void Perturb() {
     const double p = options_.perturbation;
     for (auto& k : window_.data.keyframes) {
@@ -161,6 +187,7 @@ class TestWindowMaker {
 
   TestWindowOptions options_;
   std::mt19937 random_;
+  std::mt19937 gross_;
   std::normal_distribution<double> normal_;
   TestWindow window_;
 };

@@ -28,6 +28,12 @@ struct TestWindowOptions {
   double inverse_depth_sigma = 0.002;    // 1/metres
   double line_depth_correlation = -0.4;  // of the errors at both ends
   bool has_depth = true;
+  // Cameras that pass along x on a straight line, and every second line parallel to it: its images
+  // show one plane. The others are parallel to y.
+  bool lines_along_motion = false;
+  // Fraction of observations with an error of 20 px: of points in any direction, of lines at one
+  // end. Drawn apart from all other random numbers.
+  double gross_error_ratio = 0.0;
   unsigned seed = 1;
 };
 
