@@ -29,7 +29,8 @@ struct LandmarkNoiseOptions {
 /// Search for gross errors that a landmark with few views has followed (docs/method.md).
 struct ConsensusOptions {
   /// On by default, for windows from anywhere. MapperOptions disables it: its next window tests the
-  /// same observations again. Costs as much as a few steps, and up to two solves more.
+  /// same observations again. A solve takes 5 to 25 times as long, mostly for the leave-one-out
+  /// fits of landmarks: 30 instead of 2 ms for nine keyframes in a corridor.
   bool enabled = true;
 };
 
