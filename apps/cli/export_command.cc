@@ -56,10 +56,17 @@ std::string TrajectoryPath(const std::string& run) {
 std::vector<TimedPose> SelectPoses(const ExportArguments& arguments) {
   const std::string path = TrajectoryPath(arguments.run);
   std::vector<TimedPose> poses;
-  int number = 0;
+  int number = 0, num_predicted = 0;
   for (const TimedPose& pose : ReadTrajectory(path)) {
+    num_predicted += !pose.is_estimated;
     if (!pose.is_estimated && !arguments.all_poses) continue;
     if (number++ % arguments.every == 0) poses.push_back(pose);
+  }
+  if (arguments.format == "kitti" && num_predicted > 0 && !arguments.all_poses) {
+    PrintWarning(
+        FormatText("%s: %d poses that are not estimated are left out, so that lines are "
+                   "not the numbers of frames; --all-poses keeps them",
+                   path.c_str(), num_predicted));
   }
   if (poses.empty()) {
     throw std::runtime_error(path + ": has no estimated pose; --all-poses takes the others, too");
@@ -80,10 +87,17 @@ RgbdDecoder OpenImages(const ExportArguments& arguments) {
   SequenceArguments sequence = arguments.sequence;
   sequence.directory = SequencePath(arguments);
   RgbdDecoder decoder = OpenDecoder(sequence, MakeConfiguration(arguments.configuration));
+  const std::string& name = sequence.directory;
   if (decoder.index().container) {
-    throw std::runtime_error(sequence.directory +
+    throw std::runtime_error(name +
                              ": has its images in one file, which the other program cannot read; "
                              "make a folder of it with msc_vo record");
+  }
+  if (decoder.index().scale_color) {
+    throw std::runtime_error(name +
+                             ": its colour images are reduced when they are read, so that the "
+                             "camera would not fit the files; make a folder of the reduced ones "
+                             "with msc_vo record");
   }
   return decoder;
 }
@@ -136,21 +150,33 @@ SavedSubMap LargestSubMap(const std::string& file, MapContents* contents) {
   return std::move(*largest);
 }
 
-// Names the image of a frame by the sequence, if that is given, or else by its number.
-std::function<std::string(const Frame&)> ImageNames(const ExportArguments& arguments) {
+// Names the image of a keyframe by the sequence, if that is given, or else by its number.
+std::function<std::string(const Keyframe&)> ImageNames(const ExportArguments& arguments) {
   if (arguments.sequence.directory.empty()) {
-    return [](const Frame& frame) {
-      return FormatText("frame_%06lld.png", static_cast<long long>(frame.id));
+    return [](const Keyframe& keyframe) {
+      return FormatText("keyframe_%06lld.png", static_cast<long long>(keyframe.id));
     };
   }
   const auto decoder = std::make_shared<const RgbdDecoder>(OpenImages(arguments));
-  return [decoder](const Frame& frame) {
-    for (const SequenceEntry& entry : decoder->index().entries) {
-      if (std::abs(entry.timestamp - frame.timestamp) > kMaxPoseDelay) continue;
-      return fs::path(entry.color_path).lexically_relative(decoder->index().directory).string();
+  return [decoder](const Keyframe& keyframe) {
+    const std::string& directory = decoder->index().directory;
+    const std::vector<SequenceEntry>& entries = decoder->index().entries;
+    const auto delay = [&](const SequenceEntry& entry) {
+      return std::abs(entry.timestamp - keyframe.frame->timestamp);
+    };
+    const auto nearest = std::min_element(
+        entries.begin(), entries.end(),
+        [&](const SequenceEntry& a, const SequenceEntry& b) { return delay(a) < delay(b); });
+    if (delay(*nearest) > kMaxPoseDelay) {
+      throw std::runtime_error(FormatText(
+          "%s: has no image of the keyframe at %.6f s; a map of several sequences is exported "
+          "without --sequence",
+          directory.c_str(), keyframe.frame->timestamp));
     }
-    throw std::runtime_error(FormatText("%s: has no image of the keyframe at %.6f s",
-                                        decoder->index().directory.c_str(), frame.timestamp));
+    if (keyframe.frame->camera.width != decoder->calibration().camera.width) {
+      throw std::runtime_error(directory + ": its images have another size than those of the map");
+    }
+    return fs::path(nearest->color_path).lexically_relative(directory).string();
   };
 }
 
@@ -174,7 +200,20 @@ void ExportMapFile(const ExportArguments& arguments) {
   }
 }
 
+// Refuses options that would have no effect.
+void CheckOptions(const ExportArguments& arguments) {
+  const auto refuse = [&](const char* option) {
+    throw std::runtime_error(std::string(option) + " has no effect on the format " +
+                             arguments.format + "; leave it out");
+  };
+  if (arguments.binary && arguments.format != "colmap") refuse("--binary");
+  if (!IsMapFormat(arguments.format)) return;
+  if (arguments.every != 1) refuse("--every");
+  if (arguments.all_poses) refuse("--all-poses");
+}
+
 int Export(const ExportArguments& arguments) {
+  CheckOptions(arguments);
   if (IsMapFormat(arguments.format)) {
     ExportMapFile(arguments);
   } else {

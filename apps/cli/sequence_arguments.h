@@ -19,7 +19,7 @@ constexpr double kMaxPoseDelay = 0.005;
 
 /// Arguments of all commands that read a sequence.
 struct SequenceArguments {
-  std::string directory;  ///< or a bag of ROS 1, a recording of OpenNI2, "openni2:" and a device
+  std::string directory;  ///< or a bag of ROS, a recording of OpenNI2, "openni2:" and a device
   std::string format = "auto";
   BagTopics topics;
   std::string camera;  ///< preset; may be empty

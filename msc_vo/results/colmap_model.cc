@@ -144,12 +144,12 @@ std::string FormatBinaryPoints(const ColmapModel& model) {
 }  // namespace
 
 ColmapModel MakeColmapModel(const Map& map,
-                            const std::function<std::string(const Frame&)>& name_of) {
+                            const std::function<std::string(const Keyframe&)>& name_of) {
   ColmapModel model;
   std::map<KeyframeId, int> images;
   for (const auto& [id, keyframe] : map.keyframes()) {
     images[id] = static_cast<int>(model.images.size());
-    model.images.push_back({name_of(*keyframe.frame),
+    model.images.push_back({name_of(keyframe),
                             keyframe.cam_from_world,
                             CameraOf(*keyframe.frame, &model.cameras),
                             {}});

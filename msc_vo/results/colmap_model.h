@@ -41,7 +41,7 @@ struct ColmapModel {
 /// Keyframes of a map and the points that two of them or more observe. `name_of` gives the name of
 /// the image of a frame.
 ColmapModel MakeColmapModel(const Map& map,
-                            const std::function<std::string(const Frame&)>& name_of);
+                            const std::function<std::string(const Keyframe&)>& name_of);
 
 /// The files of a model, by their names.
 struct ModelFile {

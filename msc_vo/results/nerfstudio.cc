@@ -3,6 +3,9 @@
 
 #include "msc_vo/results/nerfstudio.h"
 
+#include <algorithm>
+#include <stdexcept>
+
 #include <nlohmann/json.hpp>
 
 namespace msc_vo {
@@ -31,6 +34,11 @@ Json OpenGlMatrix(const Rigid3& world_from_cam) {
 
 std::string FormatNerfstudio(const ExportedCamera& camera,
                              const std::vector<NerfstudioFrame>& frames) {
+  constexpr size_t kNumPolynomial = 9;  // parameters up to k3
+  for (size_t i = kNumPolynomial; i < camera.parameters.size(); ++i) {
+    if (camera.parameters[i] == 0.0) continue;
+    throw std::runtime_error("nerfstudio has no rational lens (k4, k5, k6); undistort the images");
+  }
   Json json;
   const bool is_fisheye = camera.model == "OPENCV_FISHEYE";
   json["camera_model"] = is_fisheye ? "OPENCV_FISHEYE" : "OPENCV";
@@ -40,8 +48,8 @@ std::string FormatNerfstudio(const ExportedCamera& camera,
   json["h"] = camera.height;
   const std::vector<std::string> coefficients =
       is_fisheye ? std::vector<std::string>{"k1", "k2", "k3", "k4"}
-                 : std::vector<std::string>{"k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6"};
-  for (size_t i = 4; i < camera.parameters.size(); ++i) {
+                 : std::vector<std::string>{"k1", "k2", "p1", "p2", "k3"};
+  for (size_t i = 4; i < std::min(camera.parameters.size(), kNumPolynomial); ++i) {
     json[coefficients[i - 4]] = camera.parameters[i];
   }
   Json list = Json::array();

@@ -19,7 +19,8 @@ struct NerfstudioFrame {
 };
 
 /// Formats transforms.json: the camera with its lens, and for each frame its files and the pose of
-/// the camera in the axes of OpenGL (x right, y up, z backwards).
+/// the camera in the axes of OpenGL (x right, y up, z backwards). Throws std::runtime_error for a
+/// rational lens, which nerfstudio does not know.
 std::string FormatNerfstudio(const ExportedCamera& camera,
                              const std::vector<NerfstudioFrame>& frames);
 

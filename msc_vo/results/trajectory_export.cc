@@ -21,6 +21,7 @@ std::string FormatKitti(const std::vector<TimedPose>& poses) {
   return text;
 }
 
+// Stamps are good to a microsecond, as in trajectories: a double has no nanoseconds of the year.
 std::string FormatEuroc(const std::vector<TimedPose>& poses) {
   std::string text =
       "#timestamp [ns],p_RS_R_x [m],p_RS_R_y [m],p_RS_R_z [m],q_RS_w [],q_RS_x [],q_RS_y [],"
@@ -29,8 +30,8 @@ std::string FormatEuroc(const std::vector<TimedPose>& poses) {
     const Eigen::Vector3d t = pose.world_from_cam.translation();
     const Eigen::Quaterniond q = pose.world_from_cam.rotation();
     text += FormatText("%lld,%.9g,%.9g,%.9g,%.10g,%.10g,%.10g,%.10g\n",
-                       static_cast<long long>(std::llround(1e9 * pose.timestamp)), t.x(), t.y(),
-                       t.z(), q.w(), q.x(), q.y(), q.z());
+                       static_cast<long long>(std::llround(1e6 * pose.timestamp)) * 1000, t.x(),
+                       t.y(), t.z(), q.w(), q.x(), q.y(), q.z());
   }
   return text;
 }

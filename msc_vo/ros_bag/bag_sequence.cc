@@ -57,13 +57,18 @@ RosImageKind KindOf(const BagFile& bag, const BagTopic& topic) {
 }
 
 // All topics with images and what their first message holds.
-std::vector<ImageTopic> FindImageTopics(const BagFile& bag) {
+std::vector<ImageTopic> FindImageTopics(const BagFile& bag, std::vector<std::string>* warnings) {
   std::vector<ImageTopic> topics;
   for (const BagTopic& topic : bag.topics()) {
     const bool is_compressed = topic.type == kCompressedType;
     if (topic.type != kImageType && !is_compressed) continue;
     if (bag.NumMessages(topic.name) == 0) continue;
-    topics.push_back({topic.name, KindOf(bag, topic), is_compressed});
+    try {
+      topics.push_back({topic.name, KindOf(bag, topic), is_compressed});
+    } catch (const std::runtime_error& error) {  // another topic may be good
+      warnings->push_back(error.what());
+      topics.push_back({topic.name, RosImageKind::kOther, is_compressed});
+    }
   }
   return topics;
 }
@@ -149,6 +154,18 @@ void ChooseCamera(SequenceIndex* index) {
   index->calibration.reset();
 }
 
+double DepthScaleOf(const BagFile& bag, const std::string& topic,
+                    std::vector<std::string>* warnings) {
+  std::string problem;
+  const std::optional<double> scale = RealSenseDepthScale(bag, topic, &problem);
+  if (!problem.empty()) {
+    warnings->push_back(problem +
+                        "; millimetres are assumed, --set camera.depth_scale=UNITS "
+                        "changes that");
+  }
+  return scale.value_or(kUnitsOfMillimetres);
+}
+
 void ReadGroundTruth(const std::string& path, SequenceIndex* index) {
   const std::string truth =
       (std::filesystem::path(path).parent_path() / (BagName(path) + "-groundtruth.txt")).string();
@@ -157,13 +174,15 @@ void ReadGroundTruth(const std::string& path, SequenceIndex* index) {
 
 }  // namespace
 
-SequenceIndex OpenBag(const std::string& path, const BagTopics& topics) {
+SequenceIndex OpenBag(const std::string& given_path, const BagTopics& topics) {
+  // Completion in a shell ends the name of a folder with a slash.
+  const std::string path = given_path.substr(0, given_path.find_last_not_of('/') + 1);
   const std::shared_ptr<const BagFile> bag = OpenBagFile(path);
   SequenceIndex index;
   index.warnings = bag->warnings();
   index.format = "ros-bag";
   index.directory = path;
-  const std::vector<ImageTopic> all = FindImageTopics(*bag);
+  const std::vector<ImageTopic> all = FindImageTopics(*bag, &index.warnings);
   const ImageTopic depth =
       ChooseTopic(path, all, RankDepthTopics(all), topics.depth, "depth", &index.warnings);
   const ImageTopic color = ChooseTopic(path, all, RankColorTopics(all, depth.name), topics.color,
@@ -179,9 +198,7 @@ SequenceIndex OpenBag(const std::string& path, const BagTopics& topics) {
   index.container = std::make_shared<BagContainer>(bag, color, depth);
   const StoredImage first = index.container->ReadDepth(index.entries.front().depth_index);
   const bool is_metres = first.bytes.empty() && first.pixels.type() == CV_32FC1;
-  index.depth_scale = is_metres
-                          ? kUnitsOfMetres
-                          : RealSenseDepthScale(*bag, depth.name).value_or(kUnitsOfMillimetres);
+  index.depth_scale = is_metres ? kUnitsOfMetres : DepthScaleOf(*bag, depth.name, &index.warnings);
   ReadCamera(*bag, color, depth, &index);
   ChooseCamera(&index);
   ReadGroundTruth(path, &index);

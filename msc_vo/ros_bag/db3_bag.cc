@@ -4,8 +4,10 @@
 #include "msc_vo/ros_bag/db3_bag.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -42,22 +44,19 @@ std::string UriOf(const std::string& file) {
 
 Database Open(const std::string& file) {
   // A recorder that was killed may have left a log beside the file, which SQLite takes into
-  // account. Where it cannot, in a folder that may not be written, the file is read as it is.
-  for (const char* mode : {"?mode=ro", "?immutable=1"}) {
-    sqlite3* opened = nullptr;
-    const int result = sqlite3_open_v2((UriOf(file) + mode).c_str(), &opened,
-                                       SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
-    Database database(opened);
-    Check(opened, result == SQLITE_OK);
-    sqlite3_db_config(opened, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
-    sqlite3_exec(opened, "PRAGMA trusted_schema = OFF", nullptr, nullptr, nullptr);
-    sqlite3_exec(opened, "PRAGMA cell_size_check = ON", nullptr, nullptr, nullptr);
-    if (sqlite3_exec(opened, "SELECT count(*) FROM sqlite_master", nullptr, nullptr, nullptr) !=
-        SQLITE_CANTOPEN) {
-      return database;
-    }
-  }
-  throw std::runtime_error("cannot be opened (check its permissions)");
+  // account. Without one, nothing is written beside the file.
+  std::error_code missing;
+  const auto log_bytes = std::filesystem::file_size(file + "-wal", missing);
+  const std::string mode = !missing && log_bytes > 0 ? "?mode=ro" : "?immutable=1";
+  sqlite3* opened = nullptr;
+  const int result = sqlite3_open_v2((UriOf(file) + mode).c_str(), &opened,
+                                     SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
+  Database database(opened);
+  Check(opened, result == SQLITE_OK);
+  sqlite3_db_config(opened, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+  sqlite3_exec(opened, "PRAGMA trusted_schema = OFF", nullptr, nullptr, nullptr);
+  sqlite3_exec(opened, "PRAGMA cell_size_check = ON", nullptr, nullptr, nullptr);
+  return database;
 }
 
 Statement Prepare(sqlite3* database, const std::string& sql) {

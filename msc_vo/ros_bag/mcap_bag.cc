@@ -16,20 +16,32 @@ namespace msc_vo {
 
 namespace {
 
+// Others are protobuf, JSON and so on.
+bool IsOfRos(const McapChannel& channel) {
+  return channel.encoding == "cdr" || channel.encoding == "ros1";
+}
+
+BagTopic TopicOf(const McapChannel& channel) {
+  return {channel.topic, WithoutMsg(channel.schema),
+          channel.encoding == "ros1" ? RosSerialization::kRos1 : RosSerialization::kCdr};
+}
+
 class McapBag : public BagFile {
  public:
   McapBag(const std::string& path, const std::string& file) : BagFile(path), file_(file) {
     std::vector<BagTopic> topics;
     for (const auto& [id, channel] : file_.channels()) {
-      // Of others, such as protobuf, the type is no message of ROS.
-      const auto serialization =
-          channel.encoding == "ros1" ? RosSerialization::kRos1 : RosSerialization::kCdr;
-      topics.push_back({channel.topic, WithoutMsg(channel.schema), serialization});
+      if (IsOfRos(channel)) topics.push_back(TopicOf(channel));
     }
     SetTopics(std::move(topics));
     for (const McapMessage& message : file_.messages()) {
       const auto channel = file_.channels().find(message.channel);
-      if (channel != file_.channels().end()) messages_[channel->second.topic].push_back(message);
+      if (channel == file_.channels().end() || !IsOfRos(channel->second)) continue;
+      const BagTopic own = TopicOf(channel->second);
+      const BagTopic& topic = *FindTopic(own.name);  // possibly of another channel
+      if (own.type == topic.type && own.serialization == topic.serialization) {
+        messages_[own.name].push_back(message);
+      }
     }
     if (file_.is_cut_off()) {
       Warn(path + ": the end of the recording is missing; it is read as far as it goes");

@@ -50,6 +50,7 @@ McapFile::McapFile(const std::string& path) : file_(path, std::ios::binary | std
     throw std::runtime_error("is no MCAP file of version 0");
   }
   GoThroughFile();
+  if (is_cut_off_) ForgetLastIndex();
   ReadUnindexedChunks();
   const auto position = [this](const McapMessage& message) {
     return message.chunk < 0
@@ -147,6 +148,15 @@ void McapFile::AddIndex(const Record& record) {
     message.offset = entries.Read<uint64_t>();
     messages_.push_back(message);
   }
+}
+
+void McapFile::ForgetLastIndex() {
+  if (chunks_.empty()) return;
+  chunks_.back().is_indexed = false;
+  const int last = static_cast<int>(chunks_.size()) - 1;
+  messages_.erase(std::remove_if(messages_.begin(), messages_.end(),
+                                 [&](const McapMessage& m) { return m.chunk == last; }),
+                  messages_.end());
 }
 
 void McapFile::ReadUnindexedChunks() {

@@ -71,6 +71,8 @@ class McapFile {
   void AddDefinition(uint8_t opcode, std::string_view content);
   void AddChunk(const Record& record);
   void AddIndex(const Record& record);
+  // Of a file that was cut off, the last chunk may lack a part of its index.
+  void ForgetLastIndex();
   void ReadUnindexedChunks();
   void GoThroughChunk(int chunk, bool with_messages);
   std::string ReadBytes(uint64_t begin, uint64_t size);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -106,9 +107,10 @@ class Ros1Message {
     bytes_ += bytes;
     return *this;
   }
-  // Without a stamp: the time of recording is used.
-  Ros1Message& AddHeader() {
-    return Add(uint32_t{0}).Add(uint32_t{0}).Add(uint32_t{0}).AddArray("");
+  Ros1Message& AddHeader(double stamp = 0.0) {
+    const auto seconds = static_cast<uint32_t>(stamp);
+    const auto nanoseconds = static_cast<uint32_t>(std::llround(1e9 * (stamp - seconds)));
+    return Add(uint32_t{0}).Add(seconds).Add(std::min(nanoseconds, 999999999u)).AddArray("");
   }
   std::string Take() { return std::move(bytes_); }
 
@@ -175,21 +177,23 @@ class RealSenseBag : public BagFile {
   }
   std::string DoRead(const BagTopic& topic, int i) const override {
     const std::string bytes = bag_->Read(topic.name, i);
-    if (topic.type == "sensor_msgs/Image") return ImageMessage(topic.name, bytes);
+    if (topic.type == "sensor_msgs/Image")
+      return ImageMessage(topic.name, bag_->ReceiveTime(topic.name, i), bytes);
     if (topic.type == "sensor_msgs/CameraInfo") return CameraInfoMessage(TextFields(bytes));
     if (topic.type == "geometry_msgs/Transform") return TransformMessage(TextFields(bytes));
     return Ros1Message().Add(static_cast<float>(Number(bytes))).Take();
   }
 
   // The size of the image is in its camera_info, its encoding in the topic above that.
-  std::string ImageMessage(const std::string& topic, const std::string& pixels) const {
+  // Its time is that of recording, which the library sets to that of the frame.
+  std::string ImageMessage(const std::string& topic, double time, const std::string& pixels) const {
     const std::string camera_info = CameraInfoTopicOf(topic);
     const TextFields camera(FirstText(camera_info));
     const TextFields stream(FirstText(camera_info.substr(0, camera_info.rfind('/'))));
     const auto [encoding, pixel_bytes] = EncodingOf(stream.Text("encoding"));
     const uint32_t width = camera.Size("width"), height = camera.Size("height");
     return Ros1Message()
-        .AddHeader()
+        .AddHeader(time)
         .Add(height)
         .Add(width)
         .AddArray(encoding)

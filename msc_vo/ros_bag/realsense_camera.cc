@@ -64,7 +64,8 @@ bool IsSameView(const PinholeCamera& a, const PinholeCamera& b, const Rigid3& b_
 
 }  // namespace
 
-std::optional<double> RealSenseDepthScale(const BagFile& bag, const std::string& depth_topic) {
+std::optional<double> RealSenseDepthScale(const BagFile& bag, const std::string& depth_topic,
+                                          std::string* problem) {
   const std::vector<std::string> stream = StreamOf(depth_topic);
   if (stream.empty()) return std::nullopt;
   const std::string options = "/" + stream[0] + "/" + stream[1] + "/option/";
@@ -74,8 +75,9 @@ std::optional<double> RealSenseDepthScale(const BagFile& bag, const std::string&
     const float units = bag.Parse(topic->name, 0, ParseRosFloat);
     // 0.001 as it was before it was rounded to single precision, which has seven digits.
     const std::optional<double> decimal = ParseNumber(FormatText("%.7g", units));
-    if (decimal && *decimal > 0.0) return 1.0 / *decimal;
+    if (decimal && *decimal > 0.0 && std::isfinite(*decimal)) return 1.0 / *decimal;
   }
+  *problem = "the recording does not give the unit of depth (" + options + "Depth_Units/value)";
   return std::nullopt;
 }
 

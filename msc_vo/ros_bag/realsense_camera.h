@@ -14,8 +14,10 @@ namespace msc_vo {
 // What recordings of the RealSense viewer say of the camera beside the CameraInfo of each stream,
 // for topics such as /device_0/sensor_0/Depth_0/image/data.
 
-/// Raw depth units per metre of a depth topic; none if the bag does not say.
-std::optional<double> RealSenseDepthScale(const BagFile& bag, const std::string& depth_topic);
+/// Raw depth units per metre of a depth topic; none if the bag does not say, for which `problem`
+/// then gives the reason if it is such a topic.
+std::optional<double> RealSenseDepthScale(const BagFile& bag, const std::string& depth_topic,
+                                          std::string* problem);
 
 /// The camera of the depth images; none if they are registered to the colour images, or if the bag
 /// does not say, for which `problem` then gives the reason. Other bags have neither.

@@ -47,6 +47,7 @@ TEST_F(ExportedTrajectoryTest, IsReadBack) {
       EXPECT_LT(difference.rotation().angularDistance(Eigen::Quaterniond::Identity()), 1e-7);
     }
   }
+  EXPECT_THAT(FormatEuroc(poses), testing::HasSubstr("\n1305031102175304000,"));
   EXPECT_EQ(ReadTrajectoryFile(Path("euroc.csv")).poses[0].timestamp, 1305031102.175304);
 }
 
@@ -71,6 +72,13 @@ TEST(Nerfstudio, HasTheAxesOfOpenGl) {
   EXPECT_LT((column(1) - Eigen::Vector3d(0, -1, 0)).norm(), 1e-12);  // up: y of the world is down
   EXPECT_LT((column(2) - Eigen::Vector3d(-1, 0, 0)).norm(), 1e-12);  // backwards
   EXPECT_EQ(column(3), Eigen::Vector3d(1, 2, 3));
+}
+
+TEST(Nerfstudio, RefusesRationalLenses) {
+  LensDistortion lens;
+  lens.model = LensModel::kRational;
+  lens.k = {0.1, 0.2, 0.0, 0.0, 0.3, 0.4, 0.0, 0.0};
+  EXPECT_THROW(FormatNerfstudio(ExportCamera(Intrinsics(lens)), {}), std::runtime_error);
 }
 
 TEST(ExportedCamera, NamesTheModelOfTheLens) {
@@ -118,8 +126,8 @@ class ColmapModelTest : public testing::Test {
 };
 
 TEST_F(ColmapModelTest, HasDistortedPixelsAndTracks) {
-  const ColmapModel model =
-      MakeColmapModel(map_, [](const Frame& frame) { return std::to_string(frame.id) + ".png"; });
+  const ColmapModel model = MakeColmapModel(
+      map_, [](const Keyframe& keyframe) { return std::to_string(keyframe.frame->id) + ".png"; });
   ASSERT_EQ(model.cameras.size(), 1u);
   EXPECT_EQ(model.cameras[0].model, "OPENCV");
   ASSERT_EQ(model.images.size(), 2u);
@@ -139,7 +147,7 @@ TEST_F(ColmapModelTest, HasDistortedPixelsAndTracks) {
 }
 
 TEST_F(ColmapModelTest, IsTheSameAsTextAndBinary) {
-  const ColmapModel model = MakeColmapModel(map_, [](const Frame&) { return "a.png"; });
+  const ColmapModel model = MakeColmapModel(map_, [](const Keyframe&) { return "a.png"; });
   const std::vector<ModelFile> text = FormatColmapText(model), binary = FormatColmapBinary(model);
   EXPECT_EQ(text[0].content.substr(text[0].content.find('\n') + 1),
             "1 OPENCV 640 480 500 510 320 240 0.1 0 0 0\n");

@@ -11,6 +11,7 @@
 #include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
+#include <sqlite3.h>
 
 #include "msc_vo/datasets/rgbd_decoder.h"
 #include "msc_vo/datasets/sequence_calibration.h"
@@ -317,6 +318,33 @@ TEST_F(BagSequenceTest, NamesDamagedBagsOfRos2) {
   ASSERT_NE(frame, std::string::npos);
   WriteText("z.mcap", bytes.replace(frame + 4, 8, "\xff\xff\xff\xff\xff\xff\xff\xff"));
   EXPECT_THAT(MessageOf([&] { OpenBag(Path("z.mcap")); }), Names("z.mcap"));
+}
+
+TEST_F(BagSequenceTest, LeavesNothingBesideABag) {
+  WriteBag(WriteDb3Bag(Path("x.db3")), "16UC1");
+  // A database that keeps a log while it is open, as recorders set it.
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open(Path("x.db3").c_str(), &database), SQLITE_OK);
+  sqlite3_exec(database, "PRAGMA journal_mode = WAL", nullptr, nullptr, nullptr);
+  sqlite3_close(database);
+  EXPECT_EQ(OpenBag(Path("x.db3")).entries.size(), 5u);
+  EXPECT_THAT(ListFolder(Folder()), ElementsAre(Path("x.db3")));
+}
+
+TEST_F(BagSequenceTest, FindsTheGroundTruthOfAFolderWithASlash) {
+  std::filesystem::create_directory(Path("walk"));
+  WriteBag(WriteDb3Bag(Path("walk/walk_0.db3")), "16UC1");
+  WriteText("walk-groundtruth.txt", "100.0 0 0 0 0 0 0 1\n");
+  EXPECT_EQ(OpenBag(Path("walk/")).ground_truth.size(), 1u);
+}
+
+TEST_F(BagSequenceTest, GoesOnWithoutATopicThatIsDamaged) {
+  auto bag = WriteDb3Bag(Path("x.db3"));
+  bag->Write("/camera/ir/image", "sensor_msgs/Image", 1.0, "short");
+  WriteBag(std::move(bag), "16UC1");
+  const SequenceIndex index = OpenBag(Path("x.db3"));
+  EXPECT_EQ(index.entries.size(), 5u);
+  EXPECT_THAT(index.warnings, ElementsAre(Names("/camera/ir/image, message 0", "ends too early")));
 }
 
 }  // namespace

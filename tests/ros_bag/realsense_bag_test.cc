@@ -107,6 +107,7 @@ TEST_F(RealSenseBagTest, ReadsUnitsAndBothCameras) {
     SequenceIndex index = OpenBag(Path(name));
     EXPECT_EQ(index.entries.size(), 3u);
     ASSERT_TRUE(index.calibration);
+    EXPECT_THAT(index.warnings, IsEmpty());
     EXPECT_EQ(index.depth_scale, 4000.0);
     const Calibration& calibration = *index.calibration;
     EXPECT_EQ(calibration.Recorded().fx, 30.0);
@@ -144,8 +145,8 @@ TEST_F(RealSenseBagTest, KnowsRegisteredDepth) {
   }
   const SequenceIndex index = OpenBag(Path("x.bag"));
   EXPECT_FALSE(index.calibration->depth_camera);
-  EXPECT_THAT(index.warnings, IsEmpty());
   EXPECT_EQ(index.depth_scale, 1000.0);
+  EXPECT_THAT(index.warnings, testing::ElementsAre(Names("Depth_Units", "millimetres")));
 }
 
 TEST_F(RealSenseBagTest, SaysWhatIsMissing) {
