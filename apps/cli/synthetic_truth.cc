@@ -79,15 +79,20 @@ std::string FormatTruthJson(const SynthesizeArguments& arguments,
                             const SyntheticSequenceOptions& options, const Calibration& truth,
                             const Calibration& given) {
   const bool is_time_of_flight = options.depth == SyntheticDepth::kTimeOfFlight;
+  const Eigen::Vector2d offset = options.depth == SyntheticDepth::kIclNuim
+                                     ? options.icl_nuim.lateral_offset
+                                     : Eigen::Vector2d::Zero();
   const Json json = {{"scene", arguments.scene},
                      {"seed", options.seed},
                      {"path", options.walk.path},
                      {"returns", options.walk.returns},
+                     {"specular", arguments.specular},
                      {"camera", CalibrationToJson(truth)},
                      {"given", CalibrationToJson(given)},
                      {"depth_sensor", ToString(options.depth)},
                      {"depth_delay", options.depth_delay},
                      {"depth_bias", is_time_of_flight ? options.time_of_flight.bias : 0.0},
+                     {"depth_offset", {offset.x(), offset.y()}},
                      {"image_sigma", options.image_sigma},
                      {"light", options.photon_noise ? Json(options.photon_noise->light) : Json()},
                      {"hunting_exposure", options.hunting_exposure.has_value()},

@@ -195,6 +195,41 @@ TEST_F(SynthesizeCommandTest, AppliesErrorsOfDepthImages) {
   EXPECT_NEAR(depth_at_center("biased") - depth_at_center("unbiased"), 40.0 * tof, 21.0);
 }
 
+TEST_F(SynthesizeCommandTest, RendersSpecularSurfaces) {
+  EXPECT_EQ(Truth("plain", {})["specular"], nlohmann::json::array());
+  const nlohmann::json truth = Truth("floor", {"--specular", "floor,mirror"});
+  EXPECT_EQ(truth["specular"], (std::vector<std::string>{"floor", "mirror"}));
+  EXPECT_NE(Color("floor"), Color("plain"));
+  EXPECT_NE(Depth("floor"), Depth("plain"));
+  EXPECT_EQ(Camera("floor"), Camera("plain"));
+  Truth("again", {"--specular", "mirror", "--specular", "floor"});
+  EXPECT_EQ(Color("again"), Color("floor"));
+  EXPECT_EQ(Depth("again"), Depth("floor"));
+}
+
+TEST_F(SynthesizeCommandTest, DisplacesDepthOfIclNuim) {
+  nlohmann::json truth = Truth("plain", {"--depth-sensor", "icl-nuim"});
+  EXPECT_EQ(truth["depth_sensor"], "icl-nuim");
+  EXPECT_EQ(truth["depth_offset"], (std::vector<double>{0.0, 0.0}));
+  // Pixels of a focal length of 525 px; these images have 131.25 px.
+  truth = Truth("moved", {"--depth-sensor", "icl-nuim", "--depth-offset", "40,-20"});
+  EXPECT_EQ(truth["depth_offset"], (std::vector<double>{40.0, -20.0}));
+  EXPECT_EQ(Color("moved"), Color("plain"));
+  const cv::Mat plain = cv::imread(Path("plain/depth/1.000000.png"), cv::IMREAD_UNCHANGED);
+  const cv::Mat moved = cv::imread(Path("moved/depth/1.000000.png"), cv::IMREAD_UNCHANGED);
+  ASSERT_EQ(plain.size(), moved.size());
+  // Median differences of depth, without and with the offset.
+  const cv::Rect of_plain(20, 10, 120, 90), of_moved(10, 15, 120, 90);
+  const auto median_difference = [&](const cv::Rect& a, const cv::Rect& b) {
+    cv::Mat difference;
+    cv::absdiff(plain(a), moved(b), difference);
+    std::vector<uint16_t> values(difference.begin<uint16_t>(), difference.end<uint16_t>());
+    std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+    return values[values.size() / 2];
+  };
+  EXPECT_LT(median_difference(of_plain, of_moved), median_difference(of_plain, of_plain));
+}
+
 TEST_F(SynthesizeCommandTest, RefusesBadValues) {
   const auto expect_refused = [this](const std::vector<std::string>& arguments, int exit_code,
                                      const NamesMatcher& names) {
@@ -216,6 +251,13 @@ TEST_F(SynthesizeCommandTest, RefusesBadValues) {
   expect_refused({"--depth-bias", "0.01"}, 1, Names("--depth-bias", "--depth-sensor tof"));
   expect_refused({"--depth-bias", "0.01", "--sensor", "stereo"}, 1,
                  Names("--depth-bias", "--depth-sensor tof"));
+  expect_refused({"--specular", "window"}, 2, Names("--specular", "window"));
+  expect_refused({"--specular", "mirror", "--scene", "bare"}, 1,
+                 Names("--specular", "--scene room"));
+  expect_refused({"--depth-offset", "1,2"}, 1, Names("--depth-offset", "--depth-sensor icl-nuim"));
+  expect_refused({"--depth-offset", "1", "--depth-sensor", "icl-nuim"}, 2, Names("--depth-offset"));
+  expect_refused({"--depth-offset", "1,200", "--depth-sensor", "icl-nuim"}, 2,
+                 Names("--depth-offset", "200"));
   expect_refused({"--readout-time", "0.5"}, 1, LineNames("error:", "readout_time"));
 }
 

@@ -84,7 +84,6 @@ void Apply(const KinectNoiseOptions& options, const PinholeCamera& camera,
 
 KinectNoiseOptions IclNuimNoise() {
   KinectNoiseOptions options;
-  options.lateral_sigma = 1.0;
   options.disparity_step = options.focal_length * options.baseline / 351.3;
   options.disparity_sigma = options.disparity_step / 6.0;
   options.disparity_bias = 0.5 * options.disparity_step;

@@ -40,8 +40,10 @@ struct KinectNoiseOptions {
   bool IsValid(std::string* error) const;
 };
 
-/// The noise of the noisy sequences of ICL-NUIM: disparity in steps of 1/351.3 1/m with noise of a
-/// sixth of a step, rounded half a step upwards; no lost pixels.
+/// The noise of the noisy sequences of ICL-NUIM, with the constants of its published generator:
+/// depth is shuffled by 0.5 pixels; inverse depth has steps of 1/351.3 1/m, noise of a sixth of a
+/// step, and is rounded half a step upwards; no lost pixels. The generator also copies depth within
+/// windows of 9 x 9 pixels, which displaces it; lateral_offset stands for that.
 KinectNoiseOptions IclNuimNoise();
 
 /// Applies the noise model to exact depth (metres along z, row by row, 0: none; camera.width *
