@@ -17,9 +17,9 @@
 #include "apps/cli/commands.h"
 #include "apps/cli/configuration_arguments.h"
 #include "apps/cli/number_range.h"
+#include "apps/cli/posed_images.h"
 #include "apps/cli/sequence_arguments.h"
 #include "msc_vo/datasets/trajectory.h"
-#include "msc_vo/evaluation/association.h"
 #include "msc_vo/map_file/map_reader.h"
 #include "msc_vo/results/colmap_model.h"
 #include "msc_vo/results/map_export.h"
@@ -41,8 +41,7 @@ struct ExportArguments {
   std::string output;
   SequenceArguments sequence;  // its directory is that of the run if empty
   ConfigurationArguments configuration;
-  int every = 1;
-  bool all_poses = false;
+  PoseSelection poses;
   bool binary = false;
 };
 
@@ -51,27 +50,6 @@ bool IsMapFormat(const std::string& format) { return format == "colmap" || forma
 // The trajectory of a folder of results, or the file itself.
 std::string TrajectoryPath(const std::string& run) {
   return IsFolder(run) ? (fs::path(run) / "trajectory.txt").string() : run;
-}
-
-std::vector<TimedPose> SelectPoses(const ExportArguments& arguments) {
-  const std::string path = TrajectoryPath(arguments.run);
-  std::vector<TimedPose> poses;
-  int number = 0, num_predicted = 0;
-  for (const TimedPose& pose : ReadTrajectory(path)) {
-    num_predicted += !pose.is_estimated;
-    if (!pose.is_estimated && !arguments.all_poses) continue;
-    if (number++ % arguments.every == 0) poses.push_back(pose);
-  }
-  if (arguments.format == "kitti" && num_predicted > 0 && !arguments.all_poses) {
-    PrintWarning(
-        FormatText("%s: %d poses that are not estimated are left out, so that lines are "
-                   "not the numbers of frames; --all-poses keeps them",
-                   path.c_str(), num_predicted));
-  }
-  if (poses.empty()) {
-    throw std::runtime_error(path + ": has no estimated pose; --all-poses takes the others, too");
-  }
-  return poses;
 }
 
 // The sequence that was given, or that of the results.
@@ -103,35 +81,40 @@ RgbdDecoder OpenImages(const ExportArguments& arguments) {
 }
 
 std::string ExportNerfstudio(const ExportArguments& arguments) {
-  const std::vector<TimedPose> poses = SelectPoses(arguments);
   const RgbdDecoder decoder = OpenImages(arguments);
   const Calibration& calibration = decoder.calibration();
-  std::vector<double> stamps, pose_stamps;
-  for (const SequenceEntry& entry : decoder.index().entries) stamps.push_back(entry.timestamp);
-  for (const TimedPose& pose : poses) pose_stamps.push_back(pose.timestamp);
+  const auto absolute = [](const std::string& path) {
+    return fs::absolute(path).lexically_normal().string();
+  };
   std::vector<NerfstudioFrame> frames;
-  for (const StampMatch& match : AssociateStamps(stamps, pose_stamps, kMaxPoseDelay)) {
-    const SequenceEntry& entry = decoder.index().entries[static_cast<size_t>(match.reference)];
-    const auto absolute = [](const std::string& path) {
-      return fs::absolute(path).lexically_normal().string();
-    };
+  for (const PosedImage& image :
+       FindPosedImages(TrajectoryPath(arguments.run), arguments.poses, decoder)) {
+    const SequenceEntry& entry = decoder.index().entries[static_cast<size_t>(image.index)];
     frames.push_back({absolute(entry.color_path),
                       calibration.depth_camera ? "" : absolute(entry.depth_path),
-                      poses[static_cast<size_t>(match.query)].world_from_cam});
-  }
-  if (frames.empty()) {
-    throw std::runtime_error(TrajectoryPath(arguments.run) +
-                             ": none of its poses belongs to an image of " +
-                             decoder.index().directory);
+                      image.pose.world_from_cam});
   }
   return FormatNerfstudio(ExportCamera({calibration.camera, calibration.distortion}), frames);
 }
 
+// Lines of KITTI are the numbers of frames, for other programs.
+void WarnOfMissingLines(const std::string& path, size_t num_lines) {
+  const size_t num_frames = ReadTrajectory(path).size();
+  if (num_lines == num_frames) return;
+  PrintWarning(
+      FormatText("%s: %zu of %zu poses are exported, so that lines are not the numbers of "
+                 "frames; --all-poses takes predicted ones, too",
+                 path.c_str(), num_lines, num_frames));
+}
+
 std::string FormatPoses(const ExportArguments& arguments) {
+  const std::string path = TrajectoryPath(arguments.run);
   if (arguments.format == "nerfstudio") return ExportNerfstudio(arguments);
-  const std::vector<TimedPose> poses = SelectPoses(arguments);
-  if (arguments.format == "kitti") return FormatKitti(poses);
-  return arguments.format == "euroc" ? FormatEuroc(poses) : FormatTrajectory(poses);
+  if (arguments.format == "tum") return FormatTrajectory(ReadPoses(path, arguments.poses));
+  const std::vector<TimedPose> poses = ReadPosesOfOneWorld(path, arguments.poses);
+  if (arguments.format == "euroc") return FormatEuroc(poses);
+  WarnOfMissingLines(path, poses.size());
+  return FormatKitti(poses);
 }
 
 // The submap with most keyframes: other programs know one world only.
@@ -208,8 +191,8 @@ void CheckOptions(const ExportArguments& arguments) {
   };
   if (arguments.binary && arguments.format != "colmap") refuse("--binary");
   if (!IsMapFormat(arguments.format)) return;
-  if (arguments.every != 1) refuse("--every");
-  if (arguments.all_poses) refuse("--all-poses");
+  if (arguments.poses.every != 1) refuse("--every");
+  if (arguments.poses.all_poses) refuse("--all-poses");
 }
 
 int Export(const ExportArguments& arguments) {
@@ -245,10 +228,10 @@ Command AddExportCommand(CLI::App* app) {
   AddLayoutArguments(command, &arguments->sequence);
   AddConfigurationArguments(command, &arguments->configuration);
   AddCameraFileArgument(command, &arguments->configuration);
-  command->add_option("--every", arguments->every, "Export every N-th pose only")
+  command->add_option("--every", arguments->poses.every, "Export every N-th pose only")
       ->check(NumberFrom(1, 1e6))
       ->capture_default_str();
-  command->add_flag("--all-poses", arguments->all_poses,
+  command->add_flag("--all-poses", arguments->poses.all_poses,
                     "Also poses that are not estimated from the image, but predicted");
   command->add_flag("--binary", arguments->binary, "For colmap: the binary form");
   command->footer(HelpFooter("msc_vo export out/my_sequence nerfstudio transforms.json"));

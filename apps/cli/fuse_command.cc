@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include <algorithm>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -19,10 +17,9 @@
 #include "apps/cli/modules.h"
 #include "apps/cli/number_range.h"
 #include "apps/cli/output_file.h"
+#include "apps/cli/posed_images.h"
 #include "apps/cli/progress.h"
 #include "apps/cli/sequence_arguments.h"
-#include "msc_vo/datasets/trajectory.h"
-#include "msc_vo/evaluation/association.h"
 #include "msc_vo/image_files/image_file.h"
 #include "msc_vo/report/surface_layer.h"
 #include "msc_vo/results/mesh_ply.h"
@@ -43,59 +40,10 @@ struct FuseArguments {
   std::string output;
   std::string report;  // empty: none
   SurfaceFusionOptions fusion;
-  int every = 1;
+  PoseSelection poses;
   bool points = false;
-  bool all_poses = false;
   bool quiet = false;
 };
-
-// An image of the sequence and its pose.
-struct PosedImage {
-  int index = 0;
-  TimedPose pose;
-};
-
-// Leaves only the poses of the world with most poses: the transform to other worlds is unknown.
-void KeepLargestWorld(const std::string& path, std::vector<TimedPose>* poses) {
-  std::map<int, int> num_poses;
-  for (const TimedPose& pose : *poses) ++num_poses[pose.world];
-  if (num_poses.size() < 2) return;
-  const auto largest =
-      std::max_element(num_poses.begin(), num_poses.end(),
-                       [](const auto& a, const auto& b) { return a.second < b.second; });
-  const size_t num_all = poses->size();
-  poses->erase(std::remove_if(poses->begin(), poses->end(),
-                              [&](const TimedPose& pose) { return pose.world != largest->first; }),
-               poses->end());
-  PrintWarning(path + ": the segments of the run are not all joined; " +
-               std::to_string(poses->size()) + " of " + std::to_string(num_all) +
-               " poses are in the world of segment " + std::to_string(largest->first) +
-               " and are fused");
-}
-
-std::vector<PosedImage> SelectImages(const FuseArguments& arguments, const RgbdDecoder& decoder) {
-  std::vector<double> stamps, pose_stamps;
-  std::vector<TimedPose> poses;
-  for (const SequenceEntry& entry : decoder.index().entries) stamps.push_back(entry.timestamp);
-  for (const TimedPose& pose : ReadTrajectory(arguments.trajectory)) {
-    if (pose.is_estimated || arguments.all_poses) poses.push_back(pose);
-  }
-  KeepLargestWorld(arguments.trajectory, &poses);
-  for (const TimedPose& pose : poses) pose_stamps.push_back(pose.timestamp);
-  std::vector<PosedImage> images;
-  int matched = 0;
-  for (const StampMatch& match : AssociateStamps(stamps, pose_stamps, kMaxPoseDelay)) {
-    if (matched++ % arguments.every != 0) continue;
-    images.push_back({match.reference, poses[match.query]});
-  }
-  if (images.empty()) {
-    throw std::runtime_error(arguments.trajectory + ": none of its " +
-                             std::to_string(poses.size()) + " poses belongs to an image of " +
-                             arguments.sequence.directory +
-                             "; are the time stamps those of the sequence?");
-  }
-  return images;
-}
 
 // The colour image as RGB in the size of the depth image.
 cv::Mat ReadColor(const SequenceEntry& entry, cv::Size size) {
@@ -206,7 +154,8 @@ int Run(const FuseArguments& arguments) {
   inputs.insert(inputs.end(), {arguments.trajectory, arguments.report});
   CheckOutputFile(arguments.output, inputs, {decoder.index()});
   const std::string page = ReadReport(arguments.report);
-  const std::vector<PosedImage> images = SelectImages(arguments, decoder);
+  const std::vector<PosedImage> images =
+      FindPosedImages(arguments.trajectory, arguments.poses, decoder);
   SurfaceFusionOptions options = arguments.fusion;
   options.camera = decoder.calibration().camera;
   const std::unique_ptr<SurfaceFusion> fusion = LoadSurfaceFusion(options);
@@ -245,7 +194,7 @@ void AddFusionArguments(CLI::App* command, FuseArguments* arguments) {
                    "Stop with an error if the voxels need more, MiB")
       ->check(NumberFrom(16.0, 1e6))
       ->capture_default_str();
-  command->add_option("--every", arguments->every, "Use every Nth image with a pose")
+  command->add_option("--every", arguments->poses.every, "Use every Nth image with a pose")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
 }
@@ -269,7 +218,7 @@ Command AddFuseCommand(CLI::App* app) {
       ->add_option("--report", arguments->report,
                    "Add the surface as a layer to this report.html of a run")
       ->excludes(points);
-  command->add_flag("--all-poses", arguments->all_poses,
+  command->add_flag("--all-poses", arguments->poses.all_poses,
                     "Also use poses that are marked as not estimated");
   command->add_flag("--quiet", arguments->quiet, "Print neither progress nor results");
   AddFusionArguments(command, arguments.get());

@@ -13,10 +13,6 @@
 
 namespace msc_vo {
 
-/// Largest difference of the stamps of an image and its pose in a trajectory, seconds: both come
-/// from the same list.
-constexpr double kMaxPoseDelay = 0.005;
-
 /// Arguments of all commands that read a sequence.
 struct SequenceArguments {
   std::string directory;  ///< or a bag of ROS, a recording of OpenNI2, "openni2:" and a device

@@ -37,7 +37,8 @@ void WriteCounts(const WindowTerms& terms, BundleAdjustmentSummary* summary) {
   });
 }
 
-// Solves after the first search. More change few marks, see docs/lab/bundle_adjustment.md.
+// Searches after the second solve, which all but the last one repeat it after. More of them change
+// few marks, see docs/lab/bundle_adjustment.md.
 constexpr int kMaxSearches = 3;
 
 void CountRejected(const std::vector<InlierMask>& before, const std::vector<InlierMask>& after,

@@ -90,8 +90,10 @@ void ListCamera(CameraSettings* camera, OptionLister* list) {
   list->Add("field_of_view", &camera->field_of_view, AnyNumber("degrees"),
             "Horizontal field of view of the undistorted images; if not set, that of the recorded "
             "images, for a fisheye lens at most 100.");
-  list->Add("max_width", &camera->max_width, Range{16.0, 16384.0, "pixels"},
-            "Width to which wider colour images are reduced; if not set, 1280.");
+  list->Add(
+      "max_width", &camera->max_width, Range{16.0, 16384.0, "pixels"},
+      "Width to which wider colour images are reduced; if not set, 1280 for those with a depth "
+      "camera or smaller depth images.");
   list->Section("depth_camera", &camera->depth_camera, ListDepthCamera);
 }
 

@@ -48,14 +48,15 @@ PinholeCamera ScaledCamera(const PinholeCamera& camera, const ImageSize& size) {
       size.width,     size.height};
 }
 
-void FitToImageSizes(const ImageSize& color, const ImageSize& depth, int max_width,
+void FitToImageSizes(const ImageSize& color, const ImageSize& depth, std::optional<int> max_width,
                      SequenceIndex* index, Calibration* calibration) {
   const PinholeCamera recorded = calibration->Recorded();
   const bool is_known_size =
       IsOfSize(recorded, color) || (!calibration->depth_camera && IsOfSize(recorded, depth));
-  const ImageSize reduced = ReducedTo(max_width, color);
-  const bool is_reduced = reduced.width < color.width;
   const bool differ = color.width != depth.width || color.height != depth.height;
+  const int default_width = differ || calibration->depth_camera ? kDefaultMaxWidth : color.width;
+  const ImageSize reduced = ReducedTo(max_width.value_or(default_width), color);
+  const bool is_reduced = reduced.width < color.width;
   if (!is_known_size || (!differ && !is_reduced)) return;
   if (!calibration->depth_camera) {
     if (!HaveSameShape(color, depth)) return;

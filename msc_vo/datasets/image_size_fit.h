@@ -3,14 +3,18 @@
 
 #pragma once
 
+#include <optional>
+
 #include "msc_vo/datasets/calibration.h"
 #include "msc_vo/datasets/sequence.h"
 #include "msc_vo/image_files/image_file.h"
 
 namespace msc_vo {
 
-/// Colour images that are wider are reduced to this width unless a configuration gives another one:
-/// twice the width of 640 pixels to which lengths in pixels refer (camera/image_scale.h).
+/// Width to which wider colour images are reduced unless a configuration gives another one, if
+/// depth has pixels of its own. With 1920x1440 and depth of 256x192, errors are the same as
+/// without, time is 0.83 and memory 0.7 of it. Depth of the size of the colour images would have to
+/// be registered to the reduced ones, which takes more than it gives.
 constexpr int kDefaultMaxWidth = 1280;
 
 /// Returns the camera of an image that is scaled to another size. Pixel centres are at integer
@@ -24,10 +28,11 @@ PinholeCamera ScaledCamera(const PinholeCamera& camera, const ImageSize& size);
 ///   camera: they show the same view, as those of a telephone do. They get a depth camera with the
 ///   scaled intrinsics, so that they are sampled at the pixels that they have. The calibration may
 ///   be that of either size.
-/// - Colour images wider than `max_width`: they are reduced to it.
+/// - Colour images wider than `max_width`: they are reduced to it. If it is not set, images with a
+///   depth camera are reduced to kDefaultMaxWidth.
 ///
 /// Both add a sentence to `index->warnings`.
-void FitToImageSizes(const ImageSize& color, const ImageSize& depth, int max_width,
+void FitToImageSizes(const ImageSize& color, const ImageSize& depth, std::optional<int> max_width,
                      SequenceIndex* index, Calibration* calibration);
 
 }  // namespace msc_vo

@@ -209,7 +209,7 @@ void SetMissingSize(const std::optional<ImageSize>& size, const SequenceIndex& i
 }
 
 // Sets the sizes that no source gives, and fits the calibration to those of the images.
-void FitToImages(int max_width, SequenceIndex* index, Calibration* calibration) {
+void FitToImages(std::optional<int> max_width, SequenceIndex* index, Calibration* calibration) {
   const std::optional<ImageSize> depth = FindImageSize(*index, ImageKind::kDepth);
   std::optional<ImageSize> color =
       index->scale_color ? depth : FindImageSize(*index, ImageKind::kColor);
@@ -234,7 +234,7 @@ Calibration ResolveCalibration(const CameraSettings& settings, const std::string
   } else if (!settings.IsEmpty()) {
     calibration.origin += ", " + settings.origin;
   }
-  FitToImages(settings.max_width.value_or(kDefaultMaxWidth), index, &calibration);
+  FitToImages(settings.max_width, index, &calibration);
   calibration.SetUndistorted();
   std::string error;
   if (!calibration.IsValid(&error)) {

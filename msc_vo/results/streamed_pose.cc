@@ -19,7 +19,8 @@ using Json = nlohmann::ordered_json;
 using Sigmas = Eigen::Matrix<double, 6, 1>;  // position, rotation
 
 bool HasPose(const FrameResult& frame) {
-  return frame.world != kNoSegment && HasImage(frame.status);
+  return frame.world != kNoSegment &&
+         (IsEstimated(frame.status) || frame.status == TrackingStatus::kPredicted);
 }
 
 Sigmas SigmasOf(const FrameResult& frame) {

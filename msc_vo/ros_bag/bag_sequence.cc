@@ -139,8 +139,8 @@ void ReadCamera(const BagFile& bag, const ImageTopic& color, const ImageTopic& d
   std::string problem;
   index->calibration->depth_camera = RealSenseDepthCamera(bag, color.name, depth.name, &problem);
   if (!problem.empty()) {
-    index->warnings.push_back("how the depth images lie to the colour images is not known: " +
-                              problem);
+    index->warnings.push_back(
+        "the place of the depth camera beside the colour camera is not known: " + problem);
   }
 }
 

@@ -14,6 +14,7 @@
 #include <sqlite3.h>
 
 #include "msc_vo/ros_bag/decompression.h"
+#include "msc_vo/ros_bag/topic_messages.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
@@ -95,8 +96,8 @@ class Db3Bag : public BagFile {
     while (Step(database_.get(), times.get())) {
       const auto name = names.find(sqlite3_column_int64(times.get(), 1));
       if (name == names.end()) continue;
-      messages_[name->second].push_back(
-          {sqlite3_column_int64(times.get(), 0), sqlite3_column_int64(times.get(), 2)});
+      messages_.Add(name->second,
+                    {sqlite3_column_int64(times.get(), 0), sqlite3_column_int64(times.get(), 2)});
     }
     data_ = Select("SELECT data FROM messages WHERE id = ?");
   }
@@ -109,24 +110,19 @@ class Db3Bag : public BagFile {
 
   Statement Select(const std::string& sql) const { return Prepare(database_.get(), sql); }
 
-  int DoCount(const BagTopic& topic) const override {
-    const auto found = messages_.find(topic.name);
-    return found == messages_.end() ? 0 : static_cast<int>(found->second.size());
-  }
+  int DoCount(const BagTopic& topic) const override { return messages_.Count(topic.name); }
   std::string DoRead(const BagTopic& topic, int i) const override {
     sqlite3_reset(data_.get());
-    sqlite3_bind_int64(data_.get(), 1, messages_.at(topic.name).at(static_cast<size_t>(i)).id);
+    sqlite3_bind_int64(data_.get(), 1, messages_.At(topic.name, i).id);
     Check(database_.get(), Step(database_.get(), data_.get()));
-    std::string bytes = Bytes(data_.get(), 0);
-    sqlite3_reset(data_.get());
-    return IsZstd(bytes) ? UnpackZstd(bytes) : bytes;
+    return UnpackMessage(Bytes(data_.get(), 0));
   }
   double DoReceiveTime(const BagTopic& topic, int i) const override {
-    return SecondsOf(messages_.at(topic.name).at(static_cast<size_t>(i)).time);
+    return SecondsOf(messages_.At(topic.name, i).time);
   }
 
   Database database_;
-  std::map<std::string, std::vector<Message>> messages_;  // by topic, in the order of recording
+  TopicMessages<Message> messages_;
   Statement data_;
 };
 

@@ -97,6 +97,8 @@ std::string UnpackLz4(std::string_view bytes, size_t max_bytes) {
   return unpacked;
 }
 
+std::string UnpackMessage(std::string bytes) { return IsZstd(bytes) ? UnpackZstd(bytes) : bytes; }
+
 TemporaryFile::TemporaryFile()
     : path_((std::filesystem::temp_directory_path() / "msc_vo_bag_XXXXXX").string()) {
   const int file = mkstemp(path_.data());

@@ -22,6 +22,9 @@ bool IsZstd(std::string_view bytes);
 std::string UnpackZstd(std::string_view bytes, size_t max_bytes = kMaxUnpackedBytes);
 std::string UnpackLz4(std::string_view bytes, size_t max_bytes = kMaxUnpackedBytes);
 
+/// Unpacks a message if its recorder has compressed it (rosbag2 --compression-mode message).
+std::string UnpackMessage(std::string bytes);
+
 /// A file in the folder of temporary files, removed with this object.
 class TemporaryFile {
  public:

@@ -3,7 +3,6 @@
 
 #include "msc_vo/ros_bag/mcap_bag.h"
 
-#include <map>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "msc_vo/ros_bag/decompression.h"
 #include "msc_vo/ros_bag/mcap_file.h"
 #include "msc_vo/ros_bag/ros_message.h"
+#include "msc_vo/ros_bag/topic_messages.h"
 
 namespace msc_vo {
 
@@ -40,7 +40,7 @@ class McapBag : public BagFile {
       const BagTopic own = TopicOf(channel->second);
       const BagTopic& topic = *FindTopic(own.name);  // possibly of another channel
       if (own.type == topic.type && own.serialization == topic.serialization) {
-        messages_[own.name].push_back(message);
+        messages_.Add(own.name, message);
       }
     }
     if (file_.is_cut_off()) {
@@ -49,21 +49,16 @@ class McapBag : public BagFile {
   }
 
  private:
-  int DoCount(const BagTopic& topic) const override {
-    const auto found = messages_.find(topic.name);
-    return found == messages_.end() ? 0 : static_cast<int>(found->second.size());
-  }
+  int DoCount(const BagTopic& topic) const override { return messages_.Count(topic.name); }
   std::string DoRead(const BagTopic& topic, int i) const override {
-    std::string bytes = file_.Read(messages_.at(topic.name).at(static_cast<size_t>(i)));
-    return IsZstd(bytes) ? UnpackZstd(bytes) : bytes;
+    return UnpackMessage(file_.Read(messages_.At(topic.name, i)));
   }
   double DoReceiveTime(const BagTopic& topic, int i) const override {
-    return SecondsOf(
-        static_cast<int64_t>(messages_.at(topic.name).at(static_cast<size_t>(i)).log_time));
+    return SecondsOf(static_cast<int64_t>(messages_.At(topic.name, i).log_time));
   }
 
   mutable McapFile file_;
-  std::map<std::string, std::vector<McapMessage>> messages_;  // by topic, in the order of the file
+  TopicMessages<McapMessage> messages_;
 };
 
 }  // namespace

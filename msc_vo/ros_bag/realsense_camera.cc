@@ -73,7 +73,7 @@ std::optional<double> RealSenseDepthScale(const BagFile& bag, const std::string&
     const BagTopic* topic = bag.FindTopic(options + option);
     if (topic == nullptr || bag.NumMessages(topic->name) == 0) continue;
     const float units = bag.Parse(topic->name, 0, ParseRosFloat);
-    // 0.001 as it was before it was rounded to single precision, which has seven digits.
+    // Seven digits are what single precision tells apart: 0.001f is 0.001, not 0.00100000005.
     const std::optional<double> decimal = ParseNumber(FormatText("%.7g", units));
     if (decimal && *decimal > 0.0 && std::isfinite(*decimal)) return 1.0 / *decimal;
   }

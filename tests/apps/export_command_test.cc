@@ -55,6 +55,21 @@ TEST_F(ExportCommandTest, WritesEveryFormat) {
   EXPECT_GT(ReadFile(Path("model/points3D.bin")).size(), 1000u);
 }
 
+// The transform between two worlds is unknown.
+TEST_F(ExportCommandTest, TakesOneWorld) {
+  WriteText("two.txt",
+            "1 0 0 0 0 0 0 1\n2 1 0 0 0 0 0 1\n# segment 1, world 1\n3 0 0 0 0 0 0 1\n"
+            "# not estimated\n4 0 0 0 0 0 0 1\n");
+  for (const std::string format : {"kitti", "euroc"}) {
+    EXPECT_THAT(Run({"export", Path("two.txt"), format, Path(format)}),
+                Names("two.txt", "2 of 3 poses", "segment 0"));
+    EXPECT_EQ(ReadTrajectoryFile(Path(format)).poses.size(), 2u);
+  }
+  EXPECT_THAT(Run({"export", Path("two.txt"), "kitti", Path("kitti")}), Names("2 of 4", "frames"));
+  Run({"export", Path("two.txt"), "tum", Path("tum")});
+  EXPECT_EQ(ReadTrajectoryFile(Path("tum")).poses.size(), 3u);
+}
+
 TEST_F(ExportCommandTest, SaysWhatIsWrong) {
   EXPECT_THAT(Run({"export", Path("run"), "colmap", Path("m")}, 1), Names("run", "--map"));
   EXPECT_THAT(Run({"export", Path("run"), "obj", Path("m")}, 2), Names("obj", "nerfstudio"));

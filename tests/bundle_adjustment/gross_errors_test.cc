@@ -168,6 +168,7 @@ TEST_P(GrossErrorsTest, CovariancesOfPosesContainTheErrors) {
 TEST_P(GrossErrorsTest, SolvingAgainMarksAsMany) {
   const Outcome once = SolveWindows({}, GetParam(), 0.05, 100);
   const Outcome twice = SolveWindows({}, GetParam(), 0.05, 100, 2);
+  // The first solve has all observations again, and moves the poses with which fits begin.
   EXPECT_LE(twice.num_unmarked, once.num_unmarked + 0.04 * once.num_outliers);
   EXPECT_LE(twice.worst_inlier, 1.0);
   EXPECT_NEAR(twice.median_error, once.median_error, 0.1);

@@ -25,7 +25,7 @@ Calibration Camera(double f, int width, int height) {
 TEST(ImageSizeFit, LeavesImagesOfOneSize) {
   SequenceIndex index;
   Calibration calibration = Camera(500.0, 640, 480);
-  FitToImageSizes({640, 480}, {640, 480}, kDefaultMaxWidth, &index, &calibration);
+  FitToImageSizes({640, 480}, {640, 480}, {}, &index, &calibration);
   EXPECT_EQ(calibration.camera.fx, 500.0);
   EXPECT_FALSE(calibration.depth_camera);
   EXPECT_FALSE(index.scale_color);
@@ -38,7 +38,7 @@ TEST(ImageSizeFit, SamplesSmallDepthAtItsOwnPixels) {
     SequenceIndex index;
     Calibration calibration = given;
     calibration.distortion.k[0] = 0.1;
-    FitToImageSizes({1920, 1440}, {256, 192}, 1280, &index, &calibration);
+    FitToImageSizes({1920, 1440}, {256, 192}, {}, &index, &calibration);
     EXPECT_NEAR(calibration.camera.fx, 960.0, 1e-9);
     EXPECT_NEAR(calibration.camera.cx, 639.5, 1e-9);
     EXPECT_EQ(calibration.camera.height, 960);
@@ -53,9 +53,13 @@ TEST(ImageSizeFit, SamplesSmallDepthAtItsOwnPixels) {
   }
 }
 
+// Only if that is asked for.
 TEST(ImageSizeFit, ReducesColourAlone) {
   SequenceIndex index;
   Calibration calibration = Camera(1000.0, 1920, 1080);
+  FitToImageSizes({1920, 1080}, {1920, 1080}, {}, &index, &calibration);
+  EXPECT_FALSE(index.scale_color);
+  EXPECT_FALSE(calibration.depth_camera);
   FitToImageSizes({1920, 1080}, {1920, 1080}, 960, &index, &calibration);
   EXPECT_NEAR(calibration.camera.fx, 500.0, 1e-9);
   EXPECT_EQ(calibration.depth_camera->camera.fx, 1000.0);
@@ -67,12 +71,12 @@ TEST(ImageSizeFit, TouchesNothingElse) {
   for (const ImageSize& depth : {ImageSize{640, 360}, ImageSize{320, 200}}) {
     SequenceIndex index;
     Calibration calibration = Camera(500.0, 640, 480);
-    FitToImageSizes({640, 480}, depth, 1280, &index, &calibration);
+    FitToImageSizes({640, 480}, depth, {}, &index, &calibration);
     EXPECT_FALSE(calibration.depth_camera);
   }
   SequenceIndex index;
   Calibration calibration = Camera(500.0, 800, 600);
-  FitToImageSizes({640, 480}, {320, 240}, 1280, &index, &calibration);
+  FitToImageSizes({640, 480}, {320, 240}, {}, &index, &calibration);
   EXPECT_FALSE(calibration.depth_camera);
   EXPECT_EQ(calibration.camera.fx, 500.0);
 }

@@ -46,8 +46,7 @@ TEST(StreamedPose, SaysWhatIsNotKnown) {
               testing::HasSubstr(" nan nan nan nan nan nan weak 0\n"));
   EXPECT_THAT(FormatStreamedPose(frame, StreamedPoseForm::kJson),
               testing::Not(testing::HasSubstr("sigma")));
-  frame.world = kNoSegment;
-  frame.status = TrackingStatus::kLost;
+  frame.status = TrackingStatus::kLost;  // its pose is that of the frame before
   EXPECT_THAT(FormatStreamedPose(frame, StreamedPoseForm::kText),
               testing::StartsWith("12.500000 nan nan nan nan"));
   EXPECT_THAT(FormatStreamedPose(frame, StreamedPoseForm::kJson),

@@ -19,9 +19,11 @@ namespace {
 // Standard deviation relative to the distance above which a direction is held. Chosen by
 // measurement, see docs/lab/bundle_adjustment.md.
 constexpr double kMaxHeldSigma = 0.1;
+// A fit ends with a step that lowers the sum of squares by less than a hundredth, which no limit of
+// a test notices; bounds of the number of steps, and of shorter ones that are tried while the sum
+// does not decrease.
+constexpr double kMinDecrease = 1e-2;
 constexpr int kMaxSteps = 8;
-constexpr double kMinDecrease = 1e-2;  // of the sum of squares, by a step before the last one
-// Shorter steps are tried while the cost does not decrease.
 constexpr int kMaxTrials = 5;
 constexpr double kShrinkage = 0.4;
 
