@@ -46,9 +46,10 @@ void OnlineResults::Write() {
     is_begun_ = true;
   }
   const std::filesystem::path folder = directory_;
+  // In this order, so that a run that is killed leaves no pose without its row.
+  AppendTo((folder / "frames.csv").string(), FormatFramesCsv({}), &frames_, &unwritten_rows_);
   AppendTo((folder / "trajectory.txt").string(), kUnfinishedTrajectoryComment, &trajectory_,
            &unwritten_poses_);
-  AppendTo((folder / "frames.csv").string(), FormatFramesCsv({}), &frames_, &unwritten_rows_);
 }
 
 void OnlineResults::Continue(const std::vector<FrameResult>& frames) {
