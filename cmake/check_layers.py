@@ -26,6 +26,7 @@ LAYERS = [
     ["odometry", "datasets", "inertial"],
     ["config", "diagnosis", "ros_bag", "openni"],
     ["recording", "results", "map_file"],
+    ["exports"],
     ["apps"],
 ]
 LAYER_OF = {folder: layer for layer, folders in enumerate(LAYERS) for folder in folders}
@@ -39,7 +40,7 @@ OUTSIDE_HEADERS = [
     (r"sqlite3\.h$", {"map_file", "ros_bag"}),
     (r"spdlog/", {"logging", "apps"}),
     (r"yaml-cpp/", {"config", "ros_bag"}),
-    (r"nlohmann/", {"report", "recording", "results", "apps"}),
+    (r"nlohmann/", {"report", "recording", "results", "exports", "apps"}),
     (r"ceres/", {"factors", "bundle_adjustment", "pose_estimation", "structure", "self_calibration",
                  "inertial", "apps"}),
     (r"(thread|mutex|shared_mutex|future|condition_variable)$",
@@ -47,7 +48,7 @@ OUTSIDE_HEADERS = [
     (r"atomic$", {"odometry", "datasets", "apps"}),
     (r"chrono$", {"timing", "odometry", "datasets", "openni", "results", "apps"}),
     (r"(fstream|filesystem)$", {"text", "datasets", "ros_bag", "diagnosis", "config", "recording",
-                                "results", "map_file", "apps"}),
+                                "results", "map_file", "exports", "apps"}),
     (r"httplib", {"apps"}),
     (r"benchmark/", {"apps"}),
     (r"gtest/|gmock/", set()),

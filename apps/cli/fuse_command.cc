@@ -22,7 +22,7 @@
 #include "apps/cli/sequence_arguments.h"
 #include "msc_vo/image_files/image_file.h"
 #include "msc_vo/report/surface_layer.h"
-#include "msc_vo/results/mesh_ply.h"
+#include "msc_vo/exports/mesh_ply.h"
 #include "msc_vo/sensor/lens_remap.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"

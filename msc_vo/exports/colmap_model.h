@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "msc_vo/map/map.h"
-#include "msc_vo/results/exported_camera.h"
+#include "msc_vo/exports/exported_camera.h"
 
 namespace msc_vo {
 

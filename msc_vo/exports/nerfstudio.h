@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "msc_vo/geometry/rigid3.h"
-#include "msc_vo/results/exported_camera.h"
+#include "msc_vo/exports/exported_camera.h"
 
 namespace msc_vo {
 

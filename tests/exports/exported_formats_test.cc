@@ -12,9 +12,9 @@
 #include <nlohmann/json.hpp>
 
 #include "msc_vo/datasets/trajectory_format.h"
-#include "msc_vo/results/colmap_model.h"
-#include "msc_vo/results/nerfstudio.h"
-#include "msc_vo/results/trajectory_export.h"
+#include "msc_vo/exports/colmap_model.h"
+#include "msc_vo/exports/nerfstudio.h"
+#include "msc_vo/exports/trajectory_export.h"
 
 namespace msc_vo {
 namespace {

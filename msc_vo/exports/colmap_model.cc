@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/results/colmap_model.h"
+#include "msc_vo/exports/colmap_model.h"
 
 #include <algorithm>
 #include <cstdint>
