@@ -35,7 +35,8 @@ LAYER_OF = {folder: layer for layer, folders in enumerate(LAYERS) for folder in 
 OUTSIDE_HEADERS = [
     (r"opencv2/", {"image_files", "sensor", "features", "datasets", "ros_bag", "openni", "odometry", "diagnosis",
                    "results", "apps"}),
-    (r"(rosbag|ros|fastcdr)/|(zstd|lz4frame)\.h$", {"ros_bag"}),
+    (r"(rosbag|ros)/|lz4frame\.h$", {"ros_bag"}),
+    (r"fastcdr/|zstd\.h$", {"ros_bag", "exports"}),
     (r"(OpenNI\.h|openni2/)", {"openni"}),
     (r"sqlite3\.h$", {"map_file", "ros_bag"}),
     (r"spdlog/", {"logging", "apps"}),

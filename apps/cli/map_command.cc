@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "apps/cli/commands.h"
+#include "msc_vo/exports/map_export.h"
 #include "msc_vo/map_file/map_reader.h"
 #include "msc_vo/map_file/map_writer.h"
 #include "msc_vo/odometry/map_merge.h"
-#include "msc_vo/exports/map_export.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
 

@@ -12,6 +12,7 @@
 #include "apps/cli/command_log.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/number_range.h"
+#include "apps/cli/replay_exports.h"
 #include "msc_vo/text/files.h"
 
 namespace msc_vo {
@@ -107,6 +108,11 @@ CLI::App* AddReplayArguments(CLI::App* app, ReplayArguments* arguments) {
   command->add_option("--dump-windows", arguments->windows,
                       "Folder for the windows of local bundle adjustment, one file per "
                       "keyframe with its input (see solve-window)");
+  command
+      ->add_option("--export", arguments->exports,
+                   "FORMAT=PATH: also write the results as by msc_vo export; can be repeated")
+      ->allow_extra_args(false)
+      ->check(CheckExportText);
   AddPrintArguments(command, arguments);
   command->footer(HelpFooter("msc_vo replay my_sequence --output out/my_sequence"));
   return command;

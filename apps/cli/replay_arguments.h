@@ -26,6 +26,7 @@ struct ReplayArguments {
   bool overwrite = false;  ///< also results of another sequence
   std::string resume;      ///< folder of the results of a run to be continued; may be empty
   double checkpoint_interval = 5.0;  ///< seconds
+  std::vector<std::string> exports;  ///< FORMAT=PATH
   std::string windows;               ///< folder; empty: windows are not recorded
   GravityArguments gravity;
   MapArguments map;

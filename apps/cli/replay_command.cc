@@ -17,6 +17,7 @@
 #include "apps/cli/commands.h"
 #include "apps/cli/input_check.h"
 #include "apps/cli/replay_arguments.h"
+#include "apps/cli/replay_exports.h"
 #include "apps/cli/run_files.h"
 #include "apps/cli/run_identity.h"
 #include "apps/cli/sequence_run.h"
@@ -180,8 +181,18 @@ void TakeFrame(const ReplayArguments& arguments, const FrameResult& frame, RunFi
             << std::flush;
 }
 
-// Runs the odometry. `resumed`: null for a new run.
-int Run(const ReplayArguments& arguments, const Configuration& configuration, Resumed* resumed) {
+// Removes what a complete run does not need, or says how to continue it.
+void Conclude(int exit_code, const std::string& output) {
+  if (exit_code != kExitInterrupted) {
+    RemoveCheckpoint(output);  // possibly of an earlier run
+  } else if (CheckpointFile::Exists(CheckpointFolder(output))) {
+    PrintWarning("interrupted; to continue: msc_vo replay --resume " + output);
+  }
+}
+
+// Runs the odometry. `resumed`: null for a new run. `exports`: to be written when the map is free.
+int Run(const ReplayArguments& arguments, const Configuration& configuration, Resumed* resumed,
+        std::vector<RunExport>* exports) {
   std::vector<std::string> check_warnings;
   const RgbdDecoder decoder = OpenChecked(arguments, configuration, &check_warnings);
   const std::string output = OutputFolder(arguments);
@@ -189,6 +200,7 @@ int Run(const ReplayArguments& arguments, const Configuration& configuration, Re
   const SequenceIdentity sequence = IdentifySequence(decoder.index());
   if (!arguments.overwrite && resumed == nullptr) RefuseToOverwriteOthers(output, sequence);
   MakeFolder(output);  // fails before the run if it cannot be created
+  *exports = PlanExports(arguments, decoder, output);
   const std::unique_ptr<GravityFactors> gravity =
       MakeGravityFactors(arguments.gravity, decoder.index());
   const InterruptGuard interrupt;
@@ -228,16 +240,14 @@ int Run(const ReplayArguments& arguments, const Configuration& configuration, Re
   if (resumed != nullptr) run.context.command_line = resumed->identity.command_line;
   if (!run.HasImages()) {
     if (run.exit_code == kExitError) throw std::runtime_error(run.context.outcome);
+    exports->clear();
     return run.exit_code;
   }
   std::vector<std::string>& warnings = run.context.sequence.warnings;
   warnings.insert(warnings.end(), check_warnings.begin(), check_warnings.end());
   const int exit_code = WriteResults(arguments, output, run, window_problem, &files, &views);
-  if (exit_code != kExitInterrupted) {
-    RemoveCheckpoint(output);  // possibly of an earlier run
-  } else if (CheckpointFile::Exists(CheckpointFolder(output))) {
-    PrintWarning("interrupted; to continue: msc_vo replay --resume " + output);
-  }
+  Conclude(exit_code, output);
+  if (exit_code == kExitInterrupted) exports->clear();
   return exit_code;
 }
 
@@ -262,7 +272,10 @@ int Replay(const ReplayArguments& given) {
   if (resumed && configuration.odometry.snapshots.realtime) {
     throw std::runtime_error("--resume: a run in real time cannot be continued; start a new one");
   }
-  return Run(arguments, configuration, resumed ? &*resumed : nullptr);
+  std::vector<RunExport> exports;
+  const int exit_code = Run(arguments, configuration, resumed ? &*resumed : nullptr, &exports);
+  WriteExports(exports);
+  return exit_code;
 }
 
 }  // namespace

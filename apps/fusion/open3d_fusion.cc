@@ -71,6 +71,13 @@ void CopyVertices(const o3c::Tensor& positions, const o3c::Tensor& colors, Color
   }
 }
 
+void CopyNormals(const o3c::Tensor& normals, ColoredMesh* mesh) {
+  const o3c::Tensor xyz = normals.To(o3c::Float32).Contiguous();
+  const float* x = xyz.GetDataPtr<float>();
+  for (int64_t i = 0; i < xyz.GetLength(); ++i, x += 3)
+    mesh->normals.emplace_back(x[0], x[1], x[2]);
+}
+
 void CopyTriangles(const o3c::Tensor& indices, ColoredMesh* mesh) {
   const o3c::Tensor corners = indices.To(o3c::Int32).Contiguous();
   const int32_t* corner = corners.GetDataPtr<int32_t>();
@@ -142,6 +149,7 @@ class Open3dFusion : public SurfaceFusion {
     } else {
       const o3g::PointCloud points = grid.ExtractPointCloud(min_weight);
       CopyVertices(points.GetPointPositions(), points.GetPointColors(), &mesh);
+      CopyNormals(points.GetPointNormals(), &mesh);
     }
     return mesh;
   }

@@ -34,7 +34,8 @@ class SurfaceFusion {
   /// SurfaceFusionOptions::max_memory_mib.
   virtual void Add(const cv::Mat& depth, const cv::Mat& rgb, const Rigid3& cam_from_world) = 0;
 
-  /// The surface by marching cubes, or points on it without triangles. Empty if nothing was added.
+  /// The surface by marching cubes, or points on it with normals, without triangles. Empty if
+  /// nothing was added.
   virtual ColoredMesh Extract(bool with_triangles) const = 0;
 
   /// Joins the vertices of each cell of a grid, which grows until at most `max_triangles` remain.

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "msc_vo/map/map.h"
 #include "msc_vo/exports/exported_camera.h"
+#include "msc_vo/map/map.h"
 
 namespace msc_vo {
 

@@ -27,8 +27,9 @@ std::string Header(const ColoredMesh& mesh) {
   std::string text = FormatText(
       "ply\nformat binary_little_endian 1.0\ncomment msc_vo surface, metres\nelement vertex %zu\n"
       "property float x\nproperty float y\nproperty float z\n"
-      "property uchar red\nproperty uchar green\nproperty uchar blue\n",
-      mesh.positions.size());
+      "%sproperty uchar red\nproperty uchar green\nproperty uchar blue\n",
+      mesh.positions.size(),
+      mesh.normals.empty() ? "" : "property float nx\nproperty float ny\nproperty float nz\n");
   if (!mesh.triangles.empty()) {
     text += FormatText("element face %zu\nproperty list uchar int vertex_indices\n",
                        mesh.triangles.size());
@@ -42,10 +43,16 @@ std::string FormatMeshPly(const ColoredMesh& mesh) {
   if (mesh.colors.size() != mesh.positions.size()) {
     throw std::invalid_argument("mesh: expected one colour per vertex");
   }
+  if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size()) {
+    throw std::invalid_argument("mesh: expected one normal per vertex, or none");
+  }
   std::string bytes = Header(mesh);
-  bytes.reserve(bytes.size() + 15 * mesh.positions.size() + 13 * mesh.triangles.size());
+  bytes.reserve(bytes.size() + 27 * mesh.positions.size() + 13 * mesh.triangles.size());
   for (size_t i = 0; i < mesh.positions.size(); ++i) {
     for (const float x : mesh.positions[i]) Append32(x, &bytes);
+    if (!mesh.normals.empty()) {
+      for (const float x : mesh.normals[i]) Append32(x, &bytes);
+    }
     for (const uint8_t channel : mesh.colors[i]) bytes += static_cast<char>(channel);
   }
   for (const std::array<int32_t, 3>& triangle : mesh.triangles) {

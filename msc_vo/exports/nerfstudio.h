@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "msc_vo/geometry/rigid3.h"
 #include "msc_vo/exports/exported_camera.h"
+#include "msc_vo/geometry/rigid3.h"
 
 namespace msc_vo {
 

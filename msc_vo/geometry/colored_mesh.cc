@@ -25,6 +25,7 @@ void SortMesh(ColoredMesh* mesh) {
     new_index[i] = static_cast<int32_t>(sorted.positions.size());
     sorted.positions.push_back(mesh->positions[i]);
     sorted.colors.push_back(mesh->colors[i]);
+    if (!mesh->normals.empty()) sorted.normals.push_back(mesh->normals[i]);
   }
   for (std::array<int32_t, 3> triangle : mesh->triangles) {
     for (int32_t& vertex : triangle) vertex = new_index[vertex];

@@ -15,6 +15,7 @@ namespace msc_vo {
 struct ColoredMesh {
   std::vector<Eigen::Vector3f> positions;         ///< metres, world
   std::vector<std::array<uint8_t, 3>> colors;     ///< red, green, blue; one per vertex
+  std::vector<Eigen::Vector3f> normals;           ///< unit length, one per vertex; empty: none
   std::vector<std::array<int32_t, 3>> triangles;  ///< indices of vertices
 };
 

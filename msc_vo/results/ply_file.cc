@@ -232,4 +232,38 @@ std::vector<LineSegment3> ReadEdgesPly(const std::string& path) {
   return edges;
 }
 
+std::vector<MapPoint> ReadPointsPly(const std::string& path) {
+  const std::vector<PlyElement> elements = ReadPly(path);
+  const PlyElement& vertices = FindElement(elements, "vertex", path);
+  const size_t observations = vertices.Column("observations");
+  const std::vector<Eigen::Vector3d> positions = ReadVectors(vertices, "x", "y", "z");
+  std::vector<MapPoint> points;
+  for (size_t i = 0; i < positions.size(); ++i) {
+    const double num_observations = vertices.rows[i][observations];
+    if (!IsCount(num_observations)) Fail(vertices.lines[i], "a whole number of observations");
+    points.push_back({positions[i], static_cast<int>(num_observations)});
+  }
+  return points;
+}
+
+std::vector<ColoredEdge> ReadColoredEdgesPly(const std::string& path) {
+  const std::vector<PlyElement> elements = ReadPly(path);
+  const PlyElement& vertices = FindElement(elements, "vertex", path);
+  const std::vector<Eigen::Vector3d> positions = ReadVectors(vertices, "x", "y", "z");
+  const std::vector<Eigen::Vector3d> colors = ReadVectors(vertices, "red", "green", "blue");
+  std::vector<ColoredEdge> edges;
+  for (const EdgeEnds& ends : ReadEdgeEnds(FindElement(elements, "edge", path), positions)) {
+    ColoredEdge edge = {{positions[ends.start], positions[ends.end]}, {}};
+    for (size_t i = 0; i < 3; ++i) {
+      const double channel = colors[ends.start][static_cast<Eigen::Index>(i)];
+      if (!IsCount(channel) || channel > 255.0) {
+        Fail(vertices.lines[ends.start], "a colour of three numbers from 0 to 255");
+      }
+      edge.color[i] = static_cast<uint8_t>(channel);
+    }
+    edges.push_back(edge);
+  }
+  return edges;
+}
+
 }  // namespace msc_vo

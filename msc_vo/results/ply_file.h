@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -30,5 +32,16 @@ std::string FormatEdgesPly(const std::vector<LineSegment3>& edges);
 /// content, on a number that is not finite, and on a segment of zero length.
 std::vector<EstimatedLine> ReadLinesPly(const std::string& path);
 std::vector<LineSegment3> ReadEdgesPly(const std::string& path);
+
+/// Reads the file of FormatPointsPly, with the same errors.
+std::vector<MapPoint> ReadPointsPly(const std::string& path);
+
+/// A line of a map and its colour, as red, green and blue.
+struct ColoredEdge {
+  LineSegment3 segment;  ///< metres, world
+  std::array<uint8_t, 3> color = {};
+};
+/// Reads lines and colours of the file of FormatLinesPly, with the same errors.
+std::vector<ColoredEdge> ReadColoredEdgesPly(const std::string& path);
 
 }  // namespace msc_vo

@@ -74,14 +74,29 @@ std::string FormatFrameRow(const FrameResult& frame) {
     const double sigma = std::sqrt(covariance(i, i));
     text += FormatText(",%.9g", i < 3 ? RadiansToDegrees(sigma) : sigma);
   }
-  return text + FormatText(",%d,%d\n", frame.num_dynamic, frame.segment);
+  text += FormatText(",%d,%d", frame.num_dynamic, frame.segment);
+  for (int i = 0; i < 6; ++i) {
+    for (int j = i + 1; j < 6; ++j) {
+      const double scale = std::sqrt(covariance(i, i) * covariance(j, j));
+      text += FormatText(",%.9g", scale > 0.0 ? covariance(i, j) / scale : 0.0);
+    }
+  }
+  const Rigid3 odom_from_cam = frame.cam_from_odometry.Inverse();
+  const Eigen::Vector3d t = odom_from_cam.translation().array() + 0.0;  // no -0
+  for (const double x : t) text += FormatText(",%.9g", x);
+  const Eigen::Vector4d q = odom_from_cam.rotation().coeffs().array() + 0.0;
+  for (const double x : q) text += FormatText(",%.9g", x);
+  return text + "\n";
 }
 
 std::string FormatFramesCsv(const std::vector<FrameResult>& frames) {
   std::string text =
       "time,status,keyframe,points,lines,inlier_points,inlier_lines,points_ms,lines_ms,depth_ms,"
       "waiting_ms,matching_ms,pose_ms,tracking_ms,mapping_ms,sigma_rx_deg,sigma_ry_deg,"
-      "sigma_rz_deg,sigma_tx,sigma_ty,sigma_tz,dynamic,segment\n";
+      "sigma_rz_deg,sigma_tx,sigma_ty,sigma_tz,dynamic,segment,"
+      "rho_rx_ry,rho_rx_rz,rho_rx_tx,rho_rx_ty,rho_rx_tz,rho_ry_rz,rho_ry_tx,rho_ry_ty,rho_ry_tz,"
+      "rho_rz_tx,rho_rz_ty,rho_rz_tz,rho_tx_ty,rho_tx_tz,rho_ty_tz,"
+      "odom_x,odom_y,odom_z,odom_qx,odom_qy,odom_qz,odom_qw\n";
   for (const FrameResult& frame : frames) text += FormatFrameRow(frame);
   return text;
 }

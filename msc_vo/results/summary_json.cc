@@ -5,6 +5,7 @@
 
 #include <type_traits>
 
+#include "msc_vo/results/calibration_json.h"
 #include "msc_vo/results/internal/run_json.h"
 #include "msc_vo/version.h"
 
@@ -71,6 +72,14 @@ Json OptionsToJson(const Configuration& configuration) {
   return json;
 }
 
+// The calibration at the end of the run, whose camera may have been corrected.
+Calibration FinalCalibration(const RunSummary& summary, const RunContext& context) {
+  Calibration calibration = context.calibration;
+  calibration.camera = summary.intrinsics.camera;
+  calibration.distortion = summary.intrinsics.distortion;
+  return calibration;
+}
+
 // Null if the images were not processed at the pace of their time stamps.
 Json RealtimeToJson(const std::optional<RealtimeSummary>& realtime) {
   if (!realtime) return {};
@@ -89,6 +98,7 @@ std::string FormatSummaryJson(const RunSummary& summary, const RunContext& conte
                       {"images", context.sequence.entries.size()},
                       {"warnings", context.sequence.warnings}};
   json["camera"] = CameraToJson(context.calibration);
+  json["final_camera"] = Json::parse(FormatCalibrationJson(FinalCalibration(summary, context)));
   json["first_unreadable_image"] =
       context.first_unreadable.empty() ? Json() : Json(context.first_unreadable);
   json["realtime"] = RealtimeToJson(context.realtime);

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "msc_vo/datasets/trajectory_format.h"
+#include "msc_vo/ros_bag/bag_file.h"
 #include "msc_vo/text/files.h"
 
 namespace msc_vo {
@@ -53,6 +54,101 @@ TEST_F(ExportCommandTest, WritesEveryFormat) {
   EXPECT_THAT(ReadFile(Path("model/images.txt")), testing::HasSubstr(" rgb/"));
   Run({"export", Path("x.map"), "colmap", Path("model"), "--binary"});
   EXPECT_GT(ReadFile(Path("model/points3D.bin")).size(), 1000u);
+}
+
+#ifdef MSC_VO_HAS_MCAP
+TEST_F(ExportCommandTest, WritesBagsForRos2) {
+  Run({"export", Path("run"), "mcap", Path("x.mcap"), "--images"});
+  const auto bag = OpenBagFile(Path("x.mcap"));
+  const TrajectoryFile own = ReadTrajectoryFile(Path("run/trajectory.txt"));
+  for (const char* topic : {"/tf", "/msc_vo/pose", "/msc_vo/odometry", "/camera/color/camera_info",
+                            "/camera/color/image_raw/compressed"}) {
+    ASSERT_EQ(bag->NumMessages(topic), 12) << topic;
+    EXPECT_EQ(bag->ReceiveTime(topic, 7), own.poses[7].timestamp) << topic;
+  }
+  // Numbers of the trajectory without a change, with the axes of ROS.
+  const Eigen::Vector3d x = own.poses[7].world_from_cam.translation();
+  const double turned[] = {x.z(), -x.x(), -x.y()};
+  EXPECT_THAT(bag->Read("/msc_vo/pose", 7),
+              testing::HasSubstr(std::string(reinterpret_cast<const char*>(turned), 24)));
+  EXPECT_EQ(bag->NumMessages("/msc_vo/map_points"), 1);
+  EXPECT_GT(bag->Read("/msc_vo/map_lines", 0).size(), 1000u);
+  Run({"export", Path("run"), "mcap", Path("y.mcap"), "--every", "5"});
+  EXPECT_EQ(OpenBagFile(Path("y.mcap"))->NumMessages("/msc_vo/pose"), 3);
+  EXPECT_THAT(Run({"export", Path("run/trajectory.txt"), "mcap", Path("z.mcap")}, 1),
+              Names("trajectory.txt", "folder"));
+}
+#endif
+
+#ifdef MSC_VO_HAS_FUSION
+TEST_F(ExportCommandTest, WritesPointsWithNormals) {
+  Run({"export", Path("run"), "ply", Path("fine.ply"), "--voxel", "0.05"});
+  Run({"export", Path("run"), "ply", Path("coarse.ply"), "--voxel", "0.1"});
+  const std::string fine = ReadFile(Path("fine.ply"));
+  EXPECT_THAT(fine, testing::HasSubstr("property float nx\n"));
+  EXPECT_GT(fine.size(), 2 * ReadFile(Path("coarse.ply")).size());
+  // The same as of fuse.
+  Run({"fuse", Path("x"), Path("run/trajectory.txt"), "--points", "--voxel", "0.05", "--output",
+       Path("fused.ply")});
+  EXPECT_TRUE(ReadFile(Path("fused.ply")) == fine);
+  EXPECT_THAT(Run({"export", Path("run"), "ply", Path("a.ply"), "--max-depth", "0.1"}, 1),
+              Names("--max-depth"));
+}
+#endif
+
+// The images were taken with the camera of the run, whatever is said of the sequence later.
+TEST_F(ExportCommandTest, TakesTheCameraOfTheRun) {
+  Run({"export", Path("run"), "nerfstudio", Path("before.json")});
+  WriteText("x/camera.txt", "200 200 79.5 59.5 160 120 5000\n");
+  Run({"export", Path("run"), "nerfstudio", Path("after.json")});
+  EXPECT_EQ(ReadFile(Path("after.json")), ReadFile(Path("before.json")));
+  EXPECT_NE(nlohmann::json::parse(ReadFile(Path("after.json")))["fl_x"], 200.0);
+  Run({"export", Path("run"), "nerfstudio", Path("other.json"), "--set", "camera.fx=150", "--set",
+       "camera.fy=150"});
+  EXPECT_EQ(nlohmann::json::parse(ReadFile(Path("other.json")))["fl_x"], 150.0);
+}
+
+// replay --export writes what msc_vo export writes afterwards.
+TEST_F(ExportCommandTest, ReplayWritesTheSameBytes) {
+  std::vector<std::string> replay = {"replay",  Path("x"),     "--output", Path("again"),
+                                     "--quiet", "--overwrite", "--map",    Path("again.map")};
+  std::vector<std::string> formats = {"tum", "kitti", "euroc", "nerfstudio", "g2o", "colmap"};
+#ifdef MSC_VO_HAS_MCAP
+  formats.push_back("mcap");
+#endif
+#ifdef MSC_VO_HAS_FUSION
+  formats.push_back("ply");
+#endif
+  for (const std::string& format : formats) {
+    replay.push_back("--export");
+    replay.push_back(format + "=" + Path("a_" + format));
+  }
+  Run(replay);
+  for (const std::string& format : formats) {
+    const bool is_map = format == "g2o" || format == "colmap";
+    std::vector<std::string> arguments = {"export", Path(is_map ? "again.map" : "again"), format,
+                                          Path("b_" + format)};
+    if (format == "colmap") {
+      arguments.push_back("--sequence");
+      arguments.push_back(Path("x"));
+    }
+    Run(arguments);
+    const std::string file = format == "colmap" ? "/images.txt" : "";
+    EXPECT_TRUE(ReadFile(Path("a_" + format + file)) == ReadFile(Path("b_" + format + file)))
+        << format;
+  }
+}
+
+TEST_F(ExportCommandTest, ReplayFailsBeforeTheRun) {
+  const auto replay = [this](const std::string& text, int exit_code) {
+    return Run({"replay", Path("x"), "--output", Path("new"), "--export", text}, exit_code);
+  };
+  EXPECT_THAT(replay("obj=" + Path("m"), 2), Names("obj", "nerfstudio"));
+  EXPECT_THAT(replay("tum", 2), Names("tum", "FORMAT=PATH"));
+  EXPECT_THAT(replay("tum=" + Path("none/poses.txt"), 1), Names("none/poses.txt"));
+  EXPECT_THAT(replay("colmap=" + Path("m"), 1), Names("colmap", "--map FILE"));
+  EXPECT_THAT(replay("tum=" + Path("x/camera.txt"), 1), Names("camera.txt"));
+  EXPECT_FALSE(HasEntry(Path("new/trajectory.txt")));
 }
 
 // The transform between two worlds is unknown.

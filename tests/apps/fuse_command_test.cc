@@ -30,18 +30,27 @@ ColoredMesh ReadMesh(const std::string& path) {
   const size_t body = ply.find("end_header\n") + 11;
   std::istringstream header(ply.substr(0, body));
   size_t num_vertices = 0, num_faces = 0;
+  bool has_normals = false;
   for (std::string word; header >> word;) {
     if (word == "vertex") header >> num_vertices;
     if (word == "face") header >> num_faces;
+    if (word == "nx") has_normals = true;
   }
   ColoredMesh mesh;
   mesh.positions.resize(num_vertices);
   mesh.colors.resize(num_vertices);
   mesh.triangles.resize(num_faces);
   const char* at = ply.data() + body;
-  for (size_t i = 0; i < num_vertices; ++i, at += 15) {
+  if (has_normals) mesh.normals.resize(num_vertices);
+  for (size_t i = 0; i < num_vertices; ++i) {
     std::memcpy(mesh.positions[i].data(), at, 12);
-    std::memcpy(mesh.colors[i].data(), at + 12, 3);
+    at += 12;
+    if (has_normals) {
+      std::memcpy(mesh.normals[i].data(), at, 12);
+      at += 12;
+    }
+    std::memcpy(mesh.colors[i].data(), at, 3);
+    at += 3;
   }
   for (size_t i = 0; i < num_faces; ++i, at += 13) std::memcpy(&mesh.triangles[i], at + 1, 12);
   EXPECT_EQ(at, ply.data() + ply.size());
@@ -60,8 +69,29 @@ double Median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
+// The normal of the nearest surface, on its visible side.
+Eigen::Vector3d NearestNormal(const Scene& scene, const Eigen::Vector3d& x) {
+  const auto nearest =
+      std::min_element(scene.quads.begin(), scene.quads.end(),
+                       [&](const Quad& a, const Quad& b) { return a.Distance(x) < b.Distance(x); });
+  return nearest->Normal();
+}
+
 class FuseCommandTest : public TemporaryFolder {
  protected:
+  static void ExpectNormalsOfWalls(const ColoredMesh& points) {
+    ASSERT_EQ(points.normals.size(), points.positions.size());
+    const SyntheticSequence truth = Truth();
+    std::vector<double> cosines;
+    for (size_t i = 0; i < points.normals.size(); ++i) {
+      const Eigen::Vector3d normal = points.normals[i].cast<double>();
+      ASSERT_NEAR(normal.norm(), 1.0, 1e-3);
+      const Eigen::Vector3d x = points.positions[i].cast<double>();
+      cosines.push_back(normal.dot(NearestNormal(truth.scene(), x)));
+    }
+
+    EXPECT_GT(Median(cosines), 0.98);  // others are near edges, where a voxel sees two surfaces
+  }
   void SetUp() override {
     TemporaryFolder::SetUp();
     RenderSequence(Path("room"), {"--frames", std::to_string(kFrames), "--width", "160", "--fps",
@@ -147,6 +177,7 @@ TEST_F(FuseCommandTest, WritesPointsAndTheSameBytesTwice) {
   const ColoredMesh points = ReadMesh(Path("a.ply"));
   EXPECT_GT(points.positions.size(), 2000U);
   EXPECT_TRUE(points.triangles.empty());
+  ExpectNormalsOfWalls(points);
   EXPECT_TRUE(ReadFile(Path("a.ply"), 1 << 28) == ReadFile(Path("b.ply"), 1 << 28));
 }
 

@@ -41,6 +41,21 @@ TEST(FormatMeshPly, PointsHaveNoFaces) {
   EXPECT_THAT(FormatMeshPly(points), Not(HasSubstr("element face")));
 }
 
+TEST(FormatMeshPly, PutsNormalsBeforeColors) {
+  ColoredMesh points = Triangle();
+  points.triangles.clear();
+  points.normals = {{0.0f, 0.0f, 1.0f}, {0.0f, 1.0f, 0.0f}, {-2.0f, 0.0f, 0.0f}};
+  const std::string ply = FormatMeshPly(points);
+  EXPECT_THAT(ply, HasSubstr("property float z\nproperty float nx\nproperty float ny\n"
+                             "property float nz\nproperty uchar red\n"));
+  const std::string body = ply.substr(ply.find("end_header\n") + 11);
+  ASSERT_EQ(body.size(), 3U * 27U);
+  EXPECT_EQ(body.substr(2 * 27 + 12, 15),
+            std::string("\x00\x00\x00\xC0\x00\x00\x00\x00\x00\x00\x00\x00\x05\x06\x07", 15));
+  points.normals.pop_back();
+  EXPECT_THROW(FormatMeshPly(points), std::invalid_argument);
+}
+
 TEST(FormatMeshPly, RefusesMissingColors) {
   ColoredMesh mesh = Triangle();
   mesh.colors.pop_back();

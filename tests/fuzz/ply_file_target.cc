@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// PLY files with lines and with edges.
+// PLY files with lines, with edges and with points.
 
 #include "tests/fuzz/input_folder.h"
 
@@ -11,6 +11,15 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace msc_vo;
   static InputFolder folder;
   const std::string path = folder.Write("lines.ply", AsText(data, size));
+  if (size % 4 == 1) {
+    std::vector<MapPoint> points;
+    if (!Accepts(path, [&] { points = ReadPointsPly(path); })) return 0;
+    for (const MapPoint& point : points) Require(point.position.allFinite(), "finite points");
+    return 0;
+  }
+  if (size % 4 == 3) {
+    Accepts(path, [&] { ReadColoredEdgesPly(path); });
+  }
   if (size % 2 == 0) {
     std::vector<LineSegment3> edges;
     if (!Accepts(path, [&] { edges = ReadEdgesPly(path); })) return 0;

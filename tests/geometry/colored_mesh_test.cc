@@ -34,5 +34,16 @@ TEST(SortMesh, EqualSurfacesBecomeEqual) {
   EXPECT_FALSE(AreEqual(mesh, other));
 }
 
+TEST(SortMesh, NormalsFollowTheirVertices) {
+  ColoredMesh points;
+  points.positions = {{1.0f, 0.0f, 0.0f}, {0.0f, -2.0f, 0.0f}};
+  points.colors = {{{255, 0, 1}}, {{2, 3, 4}}};
+  points.normals = {{0.0f, 0.0f, 1.0f}, {0.0f, 1.0f, 0.0f}};
+  SortMesh(&points);
+  EXPECT_EQ(points.positions[0].y(), -2.0f);
+  EXPECT_EQ(points.normals[0].y(), 1.0f);
+  EXPECT_EQ(points.normals[1].z(), 1.0f);
+}
+
 }  // namespace
 }  // namespace msc_vo

@@ -67,6 +67,29 @@ TEST_F(PlyFileTest, ReadsWrittenLines) {
   EXPECT_TRUE(ReadLinesPly(Path("none.ply")).empty());
 }
 
+TEST_F(PlyFileTest, ReadsColoursOfWrittenLines) {
+  WriteText("lines.ply", FormatLinesPly(kLines));
+  const std::vector<ColoredEdge> edges = ReadColoredEdgesPly(Path("lines.ply"));
+  ASSERT_EQ(edges.size(), 3u);
+  EXPECT_EQ(edges[0].color, (std::array<uint8_t, 3>{255, 0, 0}));
+  EXPECT_EQ(edges[1].color, (std::array<uint8_t, 3>{128, 0, 128}));
+  EXPECT_EQ(edges[2].segment.end, Eigen::Vector3d(1.0, 1.0, 1.25));
+  std::string text = FormatLinesPly(kLines);
+  text.replace(text.find(" 255 0 0 5"), 10, " 256 0 0 5");
+  WriteText("lines.ply", text);
+  EXPECT_THROW(ReadColoredEdgesPly(Path("lines.ply")), std::runtime_error);
+}
+
+TEST_F(PlyFileTest, ReadsWrittenPoints) {
+  WriteText("map.ply", FormatPointsPly({{{1.0, -2.0, 0.5}, 3}, {{0.0, 0.0, 4.0}, 9}}));
+  const std::vector<MapPoint> points = ReadPointsPly(Path("map.ply"));
+  ASSERT_EQ(points.size(), 2u);
+  EXPECT_EQ(points[0].position, Eigen::Vector3d(1.0, -2.0, 0.5));
+  EXPECT_EQ(points[1].num_observations, 9);
+  WriteText("map.ply", FormatPointsPly({{{1.0, -2.0, 0.5}, -3}}));
+  EXPECT_THROW(ReadPointsPly(Path("map.ply")), std::runtime_error);
+}
+
 TEST_F(PlyFileTest, ReadsWrittenEdges) {
   const std::vector<LineSegment3> edges = {{{0.5, -2.0, 1.0}, {0.5, -2.0, 1e-6}},
                                            {{0.0, 0.0, 0.0}, {123.456789, 0.0, 0.0}}};

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "apps/cli/exported_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/cli/command_log.h"
+#include "apps/cli/exported_images.h"
+#include "msc_vo/exports/colmap_model.h"
+#include "msc_vo/exports/map_export.h"
+#include "msc_vo/map_file/map_reader.h"
+#include "msc_vo/text/files.h"
+#include "msc_vo/text/format_text.h"
+
+namespace msc_vo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// The submap with most keyframes: other programs know one world only.
+SavedSubMap LargestSubMap(const std::string& file, MapContents* contents) {
+  if (contents->submaps.empty()) throw std::runtime_error(file + ": has no submap");
+  const auto largest =
+      std::max_element(contents->submaps.begin(), contents->submaps.end(),
+                       [](const SavedSubMap& a, const SavedSubMap& b) {
+                         return a.map.keyframes().size() < b.map.keyframes().size();
+                       });
+  if (contents->submaps.size() > 1) {
+    PrintWarning(FormatText("%s: of %zu submaps, submap %d with %zu keyframes is exported",
+                            file.c_str(), contents->submaps.size(), largest->id,
+                            largest->map.keyframes().size()));
+  }
+  return std::move(*largest);
+}
+
+// Names the image of a keyframe by the sequence, if that is given, or else by its number.
+std::function<std::string(const Keyframe&)> ImageNames(const RunExport& arguments) {
+  if (arguments.sequence.directory.empty()) {
+    return [](const Keyframe& keyframe) {
+      return FormatText("keyframe_%06lld.png", static_cast<long long>(keyframe.id));
+    };
+  }
+  const auto decoder = std::make_shared<const RgbdDecoder>(OpenExportedSequence(arguments));
+  RequireImageFiles(*decoder);
+  return [decoder](const Keyframe& keyframe) {
+    const std::string& directory = decoder->index().directory;
+    const std::vector<SequenceEntry>& entries = decoder->index().entries;
+    const auto delay = [&](const SequenceEntry& entry) {
+      return std::abs(entry.timestamp - keyframe.frame->timestamp);
+    };
+    const auto nearest = std::min_element(
+        entries.begin(), entries.end(),
+        [&](const SequenceEntry& a, const SequenceEntry& b) { return delay(a) < delay(b); });
+    if (delay(*nearest) > kMaxPoseDelay) {
+      throw std::runtime_error(FormatText(
+          "%s: has no image of the keyframe at %.6f s; a map of several sequences is exported "
+          "without --sequence",
+          directory.c_str(), keyframe.frame->timestamp));
+    }
+    if (keyframe.frame->camera.width != decoder->calibration().camera.width) {
+      throw std::runtime_error(directory + ": its images have another size than those of the map");
+    }
+    return fs::path(nearest->color_path).lexically_relative(directory).string();
+  };
+}
+
+}  // namespace
+
+void WriteMapExport(const RunExport& arguments) {
+  if (IsFolder(arguments.map)) {
+    throw std::runtime_error(arguments.map + ": results of a run have no observations of points; " +
+                             "run again with --map home.map, and export home.map");
+  }
+  RefuseToOverwrite({arguments.map}, arguments.output);
+  MapContents contents = LoadMap(arguments.map);
+  const SavedSubMap submap = LargestSubMap(arguments.map, &contents);
+  if (arguments.format == "g2o") {
+    WriteFile(arguments.output, FormatG2o(submap, contents.loops));
+    return;
+  }
+  const ColmapModel model = MakeColmapModel(submap.map, ImageNames(arguments));
+  MakeFolder(arguments.output);
+  for (const ModelFile& file :
+       arguments.binary ? FormatColmapBinary(model) : FormatColmapText(model)) {
+    WriteFile((fs::path(arguments.output) / file.name).string(), file.content);
+  }
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "apps/cli/replay_exports.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "apps/cli/output_file.h"
+#include "msc_vo/text/files.h"
+
+namespace msc_vo {
+
+namespace {
+
+std::string FormatOf(const std::string& text) { return text.substr(0, text.find('=')); }
+
+// The argument that made an export.
+std::string NameOf(const RunExport& one) { return "--export " + one.format + "=" + one.output; }
+
+void CheckBeforeRun(const RunExport& one, const ReplayArguments& arguments,
+                    const RgbdDecoder& sequence) {
+  if (IsMapFormat(one.format) && one.map.empty()) {
+    throw std::runtime_error("is made of the map of the run; add --map FILE");
+  }
+  CheckExport(one, sequence);
+  std::vector<std::string> inputs = arguments.configuration.InputFiles();
+  inputs.insert(inputs.end(), {one.map, arguments.map.localize});
+  if (one.format != "colmap") return CheckOutputFile(one.output, inputs, {sequence.index()});
+  RefuseToOverwrite(InputFolders(sequence.index()), one.output);
+  MakeFolder(one.output);
+}
+
+}  // namespace
+
+std::string CheckExportText(const std::string& text) {
+  const size_t equals = text.find('=');
+  if (equals == std::string::npos || equals + 1 == text.size()) {
+    return "'" + text + "' must be FORMAT=PATH, for instance tum=poses.txt";
+  }
+  const std::vector<std::string>& formats = ExportFormats();
+  if (std::find(formats.begin(), formats.end(), FormatOf(text)) != formats.end()) return "";
+  std::string names;
+  for (const std::string& name : formats) names += (names.empty() ? "" : ", ") + name;
+  return "'" + FormatOf(text) + "' is no format; formats: " + names;
+}
+
+std::vector<RunExport> PlanExports(const ReplayArguments& arguments, const RgbdDecoder& sequence,
+                                   const std::string& output) {
+  std::vector<RunExport> exports;
+  for (const std::string& text : arguments.exports) {
+    RunExport one;
+    one.run = output;
+    one.map = arguments.map.map;
+    one.format = FormatOf(text);
+    one.output = text.substr(text.find('=') + 1);
+    // The calibration is that of the results.
+    const SequenceIndex& index = sequence.index();
+    if (one.format != "colmap" || (!index.container && !index.camera && !index.scale_color)) {
+      one.sequence = arguments.sequence;
+      one.sequence.camera.clear();
+    }
+    try {
+      CheckBeforeRun(one, arguments, sequence);
+    } catch (const std::exception& error) {
+      throw std::runtime_error(NameOf(one) + ": " + error.what());
+    }
+    exports.push_back(one);
+  }
+  return exports;
+}
+
+void WriteExports(const std::vector<RunExport>& exports) {
+  std::string problems;
+  for (const RunExport& one : exports) {
+    try {
+      WriteExport(one);
+    } catch (const std::exception& error) {
+      problems += (problems.empty() ? "" : "\n") + NameOf(one) + ": " + error.what();
+    }
+  }
+  if (!problems.empty()) throw std::runtime_error(problems);
+}
+
+}  // namespace msc_vo

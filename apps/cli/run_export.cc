@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "apps/cli/run_export.h"
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "apps/cli/command_log.h"
+#include "apps/cli/exported_images.h"
+#include "apps/cli/exported_map.h"
+#include "apps/cli/modules.h"
+#include "msc_vo/datasets/trajectory.h"
+#include "msc_vo/exports/mcap_export.h"
+#include "msc_vo/exports/mesh_ply.h"
+#include "msc_vo/exports/nerfstudio.h"
+#include "msc_vo/exports/recorded_run.h"
+#include "msc_vo/exports/trajectory_export.h"
+#include "msc_vo/geometry/pose_covariance.h"
+#include "msc_vo/results/ply_file.h"
+#include "msc_vo/text/files.h"
+#include "msc_vo/text/format_text.h"
+
+namespace msc_vo {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string FileOf(const std::string& run, const char* name) {
+  return (fs::path(run) / name).string();
+}
+
+std::string Absolute(const std::string& path) {
+  return fs::absolute(path).lexically_normal().string();
+}
+
+std::string FormatNerfstudioOf(const RunExport& arguments) {
+  const RgbdDecoder decoder = OpenExportedSequence(arguments);
+  RequireImageFiles(decoder);
+  const Calibration& calibration = decoder.calibration();
+  std::vector<NerfstudioFrame> frames;
+  for (const PosedImage& image :
+       FindPosedImages(TrajectoryPath(arguments.run), arguments.poses, decoder)) {
+    const SequenceEntry& entry = decoder.index().entries[static_cast<size_t>(image.index)];
+    frames.push_back({Absolute(entry.color_path),
+                      calibration.depth_camera ? "" : Absolute(entry.depth_path),
+                      image.pose.world_from_cam});
+  }
+  return FormatNerfstudio(ExportCamera({calibration.camera, calibration.distortion}), frames);
+}
+
+// Lines of KITTI are the numbers of frames, for other programs.
+void WarnOfMissingLines(const std::string& path, size_t num_lines) {
+  const size_t num_frames = ReadTrajectory(path).size();
+  if (num_lines == num_frames) return;
+  PrintWarning(
+      FormatText("%s: %zu of %zu poses are exported, so that lines are not the numbers of "
+                 "frames; --all-poses takes predicted ones, too",
+                 path.c_str(), num_lines, num_frames));
+}
+
+std::string FormatTrajectoryOf(const RunExport& arguments) {
+  const std::string path = TrajectoryPath(arguments.run);
+  if (arguments.format == "tum") return FormatTrajectory(ReadPoses(path, arguments.poses));
+  const std::vector<TimedPose> poses = ReadPosesOfOneWorld(path, arguments.poses);
+  if (arguments.format == "euroc") return FormatEuroc(poses);
+  WarnOfMissingLines(path, poses.size());
+  return FormatKitti(poses);
+}
+
+void RequireResults(const std::string& run, const std::string& format) {
+  if (IsFolder(run)) return;
+  throw std::runtime_error(run + ": " + format +
+                           " needs the folder of the results of a run, not a trajectory alone");
+}
+
+// Names the images of the frames.
+void AddImages(const RunExport& arguments, const std::vector<TimedPose>& poses, McapRun* run) {
+  const RgbdDecoder decoder = OpenExportedSequence(arguments);
+  RequireImageFiles(decoder);
+  run->camera = {decoder.calibration().camera, decoder.calibration().distortion};
+  std::map<int64_t, std::string> images;
+  for (const SequenceEntry& entry : decoder.index().entries) {
+    images[Microseconds(entry.timestamp)] = entry.color_path;
+  }
+  for (size_t i = 0; i < poses.size(); ++i) {
+    const auto image = images.find(Microseconds(poses[i].timestamp));
+    if (image != images.end()) run->frames[i].image = image->second;
+  }
+}
+
+// Points and lines, if they are in the world of the poses.
+void AddMap(const std::string& folder, int world, McapRun* run) {
+  const RecordedRun recorded = ReadRecordedRun(folder);
+  if (recorded.map_world && *recorded.map_world != world) {
+    PrintWarning(
+        FormatText("%s: its map is in the world of segment %d, and the poses are in that "
+                   "of segment %d; points and lines are left out",
+                   folder.c_str(), *recorded.map_world, world));
+    return;
+  }
+  run->points = ReadPointsPly(FileOf(folder, "map.ply"));
+  run->lines = ReadColoredEdgesPly(FileOf(folder, "lines.ply"));
+}
+
+void WriteMcap(const RunExport& arguments) {
+  RequireMcapExport();
+  RequireResults(arguments.run, arguments.format);
+  const std::string trajectory = TrajectoryPath(arguments.run);
+  const std::vector<TimedPose> poses = ReadPosesOfOneWorld(trajectory, arguments.poses);
+  const std::string frames_csv = FileOf(arguments.run, "frames.csv");
+  const std::map<int64_t, RecordedFrame> recorded = ReadFramesCsv(frames_csv);
+  McapRun run;
+  for (const TimedPose& pose : poses) {
+    const auto found = recorded.find(Microseconds(pose.timestamp));
+    if (found == recorded.end()) {
+      throw std::runtime_error(
+          FormatText("%s: has no row of the pose at %.6f s of %s; are both of one run?",
+                     frames_csv.c_str(), pose.timestamp, trajectory.c_str()));
+    }
+    McapFrame frame;
+    frame.nanoseconds = 1000 * found->first;
+    frame.world_from_cam = pose.world_from_cam;
+    frame.odom_from_cam = found->second.odom_from_cam;
+    if (found->second.covariance) {
+      frame.covariance = CameraCovariance(pose.world_from_cam.Inverse(), *found->second.covariance);
+    }
+    run.frames.push_back(std::move(frame));
+  }
+  AddMap(arguments.run, poses.front().world, &run);
+  if (arguments.images) AddImages(arguments, poses, &run);
+  ExportMcap(run, arguments.output);
+}
+
+void WritePly(const RunExport& arguments) {
+  const RgbdDecoder decoder = OpenExportedSequence(arguments);
+  const std::vector<PosedImage> images =
+      FindPosedImages(TrajectoryPath(arguments.run), arguments.poses, decoder);
+  SurfaceFusionOptions options = arguments.fusion;
+  options.camera = decoder.calibration().camera;
+  const std::unique_ptr<SurfaceFusion> fusion = LoadSurfaceFusion(options);
+  if (FuseImages(decoder, images, true, fusion.get()).is_interrupted) {
+    throw std::runtime_error("interrupted; " + arguments.output + " is not written");
+  }
+  WriteFile(arguments.output, FormatMeshPly(ExtractSurface(*fusion, options, false)));
+}
+
+}  // namespace
+
+const std::vector<std::string>& ExportFormats() {
+  static const auto* const kFormats = new std::vector<std::string>{
+      "colmap", "euroc", "g2o", "kitti", "mcap", "nerfstudio", "ply", "tum"};
+  return *kFormats;
+}
+
+bool IsMapFormat(const std::string& format) { return format == "colmap" || format == "g2o"; }
+
+void CheckExport(const RunExport& arguments, const RgbdDecoder& sequence) {
+  const bool needs_images = arguments.format == "nerfstudio" || arguments.format == "ply";
+  if (needs_images && sequence.index().camera) {
+    throw std::runtime_error(
+        "the images of a live camera are gone after the run; record them with msc_vo record");
+  }
+  if (arguments.format == "nerfstudio") {
+    RequireImageFiles(sequence);
+    const Calibration& calibration = sequence.calibration();
+    FormatNerfstudio(ExportCamera({calibration.camera, calibration.distortion}), {});
+  }
+  if (arguments.format == "mcap") RequireMcapExport();
+  if (arguments.format == "ply") {
+    SurfaceFusionOptions options = arguments.fusion;
+    options.camera = sequence.calibration().camera;
+    LoadSurfaceFusion(options);
+  }
+}
+
+void WriteExport(const RunExport& arguments) {
+  if (IsMapFormat(arguments.format)) return WriteMapExport(arguments);
+  RefuseToOverwrite({TrajectoryPath(arguments.run)}, arguments.output);
+  if (arguments.format == "mcap") return WriteMcap(arguments);
+  if (arguments.format == "ply") return WritePly(arguments);
+  WriteFile(arguments.output, arguments.format == "nerfstudio" ? FormatNerfstudioOf(arguments)
+                                                               : FormatTrajectoryOf(arguments));
+}
+
+}  // namespace msc_vo

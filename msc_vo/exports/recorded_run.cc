@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/exports/recorded_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "msc_vo/geometry/angles.h"
+#include "msc_vo/results/calibration_json.h"
+#include "msc_vo/text/files.h"
+#include "msc_vo/text/text_file.h"
+
+namespace msc_vo {
+
+namespace {
+
+constexpr const char* kSigmas[] = {"sigma_rx_deg", "sigma_ry_deg", "sigma_rz_deg",
+                                   "sigma_tx",     "sigma_ty",     "sigma_tz"};
+constexpr const char* kAxes[] = {"rx", "ry", "rz", "tx", "ty", "tz"};
+constexpr const char* kPose[] = {"odom_qx", "odom_qy", "odom_qz", "odom_qw",
+                                 "odom_x",  "odom_y",  "odom_z"};
+
+// Rows of a file with named columns.
+class Table {
+ public:
+  explicit Table(const std::string& path) : lines_(ReadTextLines(path)) {
+    if (lines_.empty()) throw std::runtime_error(path + ":1: the file is empty");
+  }
+
+  size_t num_rows() const { return lines_.size() - 1; }
+  size_t Column(const std::string& name) const {
+    const std::vector<std::string>& names = lines_[0].fields;
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) {
+      lines_[0].Fail("no column '" + name +
+                     "': it was written by an earlier version; run the sequence again");
+    }
+    return static_cast<size_t>(found - names.begin());
+  }
+  double Number(size_t row, size_t column) const {
+    const TextLine& line = lines_[row + 1];
+    if (line.fields.size() != lines_[0].fields.size()) {
+      line.Fail(std::to_string(lines_[0].fields.size()) + " columns expected, found " +
+                std::to_string(line.fields.size()));
+    }
+    const std::optional<double> number = ParseNumber(line.fields[column]);
+    if (!number || !std::isfinite(*number)) {
+      line.Fail("'" + line.fields[column] + "' in the column " + lines_[0].fields[column] +
+                " is no number");
+    }
+    return *number;
+  }
+  const TextLine& Line(size_t row) const { return lines_[row + 1]; }
+
+ private:
+  std::vector<TextLine> lines_;
+};
+
+}  // namespace
+
+int64_t Microseconds(double seconds) { return std::llround(1e6 * seconds); }
+
+std::map<int64_t, RecordedFrame> ReadFramesCsv(const std::string& path) {
+  const Table table(path);
+  const size_t time = table.Column("time");
+  std::vector<size_t> sigmas, pose;
+  for (const char* name : kSigmas) sigmas.push_back(table.Column(name));
+  for (const char* name : kPose) pose.push_back(table.Column(name));
+  size_t correlations[6][6] = {};
+  for (int i = 0; i < 6; ++i) {
+    for (int j = i + 1; j < 6; ++j) {
+      correlations[i][j] = table.Column(std::string("rho_") + kAxes[i] + "_" + kAxes[j]);
+    }
+  }
+  std::map<int64_t, RecordedFrame> frames;
+  for (size_t row = 0; row < table.num_rows(); ++row) {
+    RecordedFrame frame;
+    for (int i = 0; i < 7; ++i) frame.odom_from_cam.params[i] = table.Number(row, pose[i]);
+    const double length = frame.odom_from_cam.rotation().norm();
+    if (!(std::abs(length - 1.0) < 1e-3)) table.Line(row).Fail("the quaternion has no unit length");
+    frame.odom_from_cam.rotation().normalize();
+    PoseCovariance covariance;
+    for (int i = 0; i < 6; ++i) {
+      const double sigma = table.Number(row, sigmas[i]);
+      covariance(i, i) = i < 3 ? DegreesToRadians(sigma) : sigma;
+    }
+    for (int i = 0; i < 6; ++i) {
+      for (int j = i + 1; j < 6; ++j) {
+        covariance(i, j) = covariance(j, i) =
+            table.Number(row, correlations[i][j]) * covariance(i, i) * covariance(j, j);
+      }
+    }
+    covariance.diagonal() = covariance.diagonal().cwiseAbs2().eval();
+    if (covariance.trace() > 0.0) frame.covariance = covariance;
+    frames[Microseconds(table.Number(row, time))] = frame;
+  }
+  return frames;
+}
+
+RecordedRun ReadRecordedRun(const std::string& folder) {
+  const std::string path = (std::filesystem::path(folder) / "summary.json").string();
+  RecordedRun run;
+  if (!FileProblem(path).empty()) return run;
+  try {
+    const auto json = nlohmann::json::parse(ReadFile(path));
+    if (json.contains("final_camera")) {
+      run.calibration = ParseCalibrationJson(json["final_camera"].dump());
+      run.calibration->origin = path;
+    }
+    for (const auto& segment : json.value("segments", nlohmann::json::array())) {
+      if (segment.at("in_map").get<bool>()) run.map_world = segment.at("world").get<int>();
+    }
+  } catch (const std::exception& error) {
+    throw std::runtime_error(path + ": cannot be read as the summary of a run: " + error.what());
+  }
+  return run;
+}
+
+}  // namespace msc_vo

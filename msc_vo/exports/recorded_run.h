@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "msc_vo/datasets/calibration.h"
+#include "msc_vo/geometry/pose_covariance.h"
+#include "msc_vo/geometry/rigid3.h"
+
+namespace msc_vo {
+
+/// What frames.csv has of a frame beside its pose in the trajectory.
+struct RecordedFrame {
+  /// See FrameResult::cam_from_odometry, of which it is the inverse.
+  Rigid3 odom_from_cam;
+  /// Of cam_from_world; none if it is unknown.
+  std::optional<PoseCovariance> covariance;
+};
+
+/// Returns a time stamp in whole microseconds, as result files have them.
+int64_t Microseconds(double seconds);
+
+/// Reads frames.csv: frames by their time in microseconds. Throws std::runtime_error, naming file
+/// and line, if it is damaged or was written by a version without these columns.
+std::map<int64_t, RecordedFrame> ReadFramesCsv(const std::string& path);
+
+/// What summary.json says of a run.
+struct RecordedRun {
+  /// At its end, with the camera as self-calibration has corrected it; none: of an earlier version.
+  std::optional<Calibration> calibration;
+  /// Number of the world that its map is in; none: there is no map.
+  std::optional<int> map_world;
+};
+
+/// Reads the summary.json of a folder of results; nothing is set if there is none. Throws
+/// std::runtime_error, naming the file, if it is damaged.
+RecordedRun ReadRecordedRun(const std::string& folder);
+
+}  // namespace msc_vo
