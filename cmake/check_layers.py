@@ -40,7 +40,7 @@ OUTSIDE_HEADERS = [
     (r"(OpenNI\.h|openni2/)", {"openni"}),
     (r"sqlite3\.h$", {"map_file", "ros_bag"}),
     (r"spdlog/", {"logging", "apps"}),
-    (r"yaml-cpp/", {"config", "ros_bag"}),
+    (r"yaml-cpp/", {"config", "ros_bag", "results"}),
     (r"nlohmann/", {"report", "recording", "results", "exports", "apps"}),
     (r"ceres/", {"factors", "bundle_adjustment", "pose_estimation", "structure", "self_calibration",
                  "inertial", "apps"}),

@@ -17,6 +17,7 @@
 #include "apps/cli/command_log.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/configuration_arguments.h"
+#include "apps/cli/published_sequences.h"
 #include "apps/cli/sequence_arguments.h"
 #include "apps/cli/sequence_run.h"
 #include "msc_vo/results/benchmark.h"
@@ -41,6 +42,7 @@ struct BenchmarkArguments {
   std::string shard;               // "K/N"; empty: all
   std::vector<std::string> merge;  // folders; empty: run
   bool resume = false;
+  std::string root;  // of the sequences of a table of the literature
 };
 
 // The implemented modes: those that are valid with the default options.
@@ -108,7 +110,57 @@ int Report(const BenchmarkArguments& arguments, const Shard& shard, const Benchm
                            (fs::path(arguments.output) / table).string());
 }
 
+// Runs the sequences of a table of the literature with loop closing off and on.
+int RunPublished(const BenchmarkArguments& arguments) {
+  const std::string& path = arguments.sequences.front();
+  if (arguments.sequences.size() != 1) {
+    throw std::runtime_error(path + ": a table of the literature is given alone");
+  }
+  if (arguments.root.empty()) {
+    throw std::runtime_error(path + ": give the folder of the datasets with --root");
+  }
+  if (!arguments.modes.empty() || !arguments.shard.empty()) {
+    throw std::runtime_error(path +
+                             ": a table of the literature is run in the mode msc-vo, in one "
+                             "share; leave out --modes and --shard");
+  }
+  const PublishedTable table = ReadPublishedTable(path);
+  BenchmarkPlan plan;
+  for (const char* loops : {"close_loops=false", "close_loops=true"}) {
+    ConfigurationArguments with_loops = arguments.configuration;
+    with_loops.settings.push_back(loops);
+    plan.configurations.push_back(MakeConfiguration(with_loops));
+  }
+  plan.sequences = FindPublishedSequences(table, path, arguments.root);
+  plan.layout = arguments.layout;
+  plan.run = arguments.run;
+  plan.input_files = arguments.configuration.InputFiles();
+  plan.output = arguments.output;
+  plan.overwrite = arguments.overwrite;
+  RefuseToOverwrite({path, arguments.root}, arguments.output);
+  Benchmark benchmark = Describe(arguments, {"loops-off", "loops-on"});
+  const InterruptGuard interrupt;
+  BenchmarkRunner runner(plan, interrupt, &benchmark);
+  if (arguments.resume) runner.Resume();
+  const std::string problem = runner.Run();
+  if (!problem.empty()) throw std::runtime_error(problem);
+  WritePublishedTables(table, benchmark, arguments.root, arguments.output);
+  if (arguments.run.json) {
+    std::cout << FormatPublishedJson(table, benchmark, arguments.root) << std::flush;
+  } else if (!arguments.run.quiet) {
+    std::cout << FormatPublishedMarkdown(table, benchmark, arguments.root) << std::flush;
+  }
+  BenchmarkArguments silent = arguments;
+  silent.run.json = false;
+  silent.run.quiet = true;
+  return Report(silent, plan.shard, benchmark, interrupt.IsInterrupted());
+}
+
 int RunBenchmark(const BenchmarkArguments& arguments) {
+  if (IsPublishedTable(arguments.sequences)) return RunPublished(arguments);
+  if (!arguments.root.empty()) {
+    throw std::runtime_error("--root belongs to a table of the literature (.yaml)");
+  }
   const std::vector<std::string> modes =
       arguments.modes.empty() ? ImplementedModes() : WithoutRepeats(arguments.modes);
   BenchmarkPlan plan;
@@ -182,11 +234,16 @@ Command AddBenchmarkCommand(CLI::App* app) {
       "benchmark", "Replay sequences in several modes and compare them with the ground truth");
   CLI::Option* sequences =
       command->add_option("sequences", arguments->sequences,
-                          "Sequences with ground truth, or text files that list one per line");
+                          "Sequences with ground truth, text files that list one per line, or a "
+                          "table of the literature (.yaml)");
   command
       ->add_option("--merge", arguments->merge,
                    "Join the results in these folders instead of running anything")
       ->excludes(sequences);
+  command
+      ->add_option("--root", arguments->root,
+                   "Folder with the datasets of a table of the literature")
+      ->excludes("--merge");
   command
       ->add_option("--shard", arguments->shard,
                    "K/N: run only the K-th of N shares of the sequences")

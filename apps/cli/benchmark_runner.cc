@@ -151,6 +151,8 @@ void BenchmarkRunner::RunSequenceModes(const BenchmarkSequence& sequence) {
   try {
     SequenceArguments arguments = plan_.layout;
     arguments.directory = sequence.directory;
+    if (!sequence.format.empty()) arguments.format = sequence.format;
+    if (!sequence.camera.empty()) arguments.camera = sequence.camera;
     decoder.emplace(
         OpenWithGroundTruth(arguments, plan_.configurations.front()));  // modes share the camera
   } catch (const std::exception& error) {

@@ -63,7 +63,7 @@ std::vector<BenchmarkSequence> ListBenchmarkSequences(const std::vector<std::str
     for (const std::string& directory :
          IsList(argument) ? ReadList(argument) : std::vector<std::string>{argument}) {
       sequences.push_back({directory, UniqueName(SequenceName(directory), sequences),
-                           static_cast<int>(sequences.size())});
+                           static_cast<int>(sequences.size()), "", ""});
     }
   }
   return sequences;

@@ -13,8 +13,10 @@ namespace msc_vo {
 /// A sequence of a benchmark.
 struct BenchmarkSequence {
   std::string directory;
-  std::string name;  ///< of its results, unique
-  int index = 0;     ///< in the whole list, from 0
+  std::string name;         ///< of its results, unique
+  int index = 0;            ///< in the whole list, from 0
+  std::string format = "";  ///< layout; empty: that of the command
+  std::string camera = "";  ///< preset; empty: that of the command
 };
 
 /// Expands list files, which name one sequence per line, relative to the folder of the list, and

@@ -231,5 +231,53 @@ TEST_F(BenchmarkSharesTest, RefusesOtherSettingsAndWrongArguments) {
   EXPECT_EQ(RunCommand({"benchmark", Path("a"), "--merge", Path("out")}).exit_code, 2);
 }
 
+// Folders of the layout and the names of the datasets.
+TEST_F(BenchmarkCommandTest, ComparesWithTheLiterature) {
+  Synthesize("room", 12, "data/tum/rgbd_dataset_freiburg3_structure_notexture_far");
+  Synthesize("corridor", 12, "data/living_room_traj0_frei_png");
+  const std::string table = std::string(MSC_VO_DATA_FOLDER) + "/benchmarks/msc_vo_paper.yaml";
+  const CommandOutcome outcome = RunCommand(
+      {"benchmark", table, "--root", Path("data"), "--output", Path("out"), "--max-frames", "10"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  const std::string published = ReadFile(Path("out/published.md"));
+  EXPECT_THAT(outcome.output, HasSubstr(published));
+  EXPECT_THAT(published,
+              AllOf(HasSubstr("msc_vo, loops-off | msc_vo, loops-on | MSC-VO | OPVO"),
+                    HasSubstr("| 66.0 | 130.0 | 75.0 |"),
+                    HasSubstr("- lr-kt1 (ICL-NUIM): no folder"), HasSubstr("iclnuim.html"),
+                    Not(HasSubstr("- snot-far (")), HasSubstr("only the first 10 images")));
+  const auto json = nlohmann::json::parse(ReadFile(Path("out/published.json")));
+  for (const nlohmann::json& sequence : json["sequences"]) {
+    const bool found = sequence["name"] == "lr-kt0" || sequence["name"] == "snot-far";
+    EXPECT_EQ(sequence["found"], found) << sequence["name"];
+    if (!found) continue;
+    EXPECT_GT(sequence["msc_vo"]["loops-off"], 0.0);
+    EXPECT_LT(sequence["msc_vo"]["loops-on"], 0.05);
+  }
+  EXPECT_TRUE(HasEntry(Path("out/snot-far/loops-on/trajectory.txt")));
+  EXPECT_THAT(ReadFile(Path("out/published.html")), HasSubstr("<td>snot-far</td>"));
+  EXPECT_THAT(ReadFile(Path("out/snot-far/loops-off/summary.json")),
+              HasSubstr("\"close_loops\": false"));
+}
+
+TEST_F(BenchmarkCommandTest, SaysWhatIsWrongWithATable) {
+  const std::string table = std::string(MSC_VO_DATA_FOLDER) + "/benchmarks/msc_vo_paper.yaml";
+  const auto output = [](const std::vector<std::string>& arguments) {
+    const CommandOutcome outcome = RunCommand(arguments);
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
+    return outcome.output;
+  };
+  EXPECT_THAT(output({"benchmark", table}), Names("msc_vo_paper.yaml", "--root"));
+  EXPECT_THAT(output({"benchmark", table, "--root", Path("none")}), Names("none"));
+  std::filesystem::create_directories(Path("empty"));
+  EXPECT_THAT(output({"benchmark", table, "--root", Path("empty"), "--output", Path("out")}),
+              Names("none of the 12 sequences", "iclnuim.html", "cvg.cit.tum.de"));
+  WriteText("bad.yaml", "title: x\ndatasets: 3\n");
+  EXPECT_THAT(output({"benchmark", Path("bad.yaml"), "--root", Path("empty")}),
+              Names("bad.yaml:2", "datasets"));
+  EXPECT_THAT(output({"benchmark", table, "--root", Path("empty"), "--modes", "pl-vo"}),
+              Names("--modes"));
+}
+
 }  // namespace
 }  // namespace msc_vo
