@@ -39,7 +39,7 @@ function(msc_vo_install_documents)
   install(FILES CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT command)
   install(DIRECTORY docs/images DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT command
           PATTERN *.py EXCLUDE)
-  install(DIRECTORY data/cameras DESTINATION ${CMAKE_INSTALL_DOCDIR}/data COMPONENT command)
+  install(DIRECTORY data/benchmarks data/cameras DESTINATION ${CMAKE_INSTALL_DOCDIR}/data COMPONENT command)
   install(PROGRAMS data/make_room.sh DESTINATION ${CMAKE_INSTALL_DOCDIR}/data COMPONENT command)
   install(DIRECTORY apps/cluster apps/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}/apps
           COMPONENT command)

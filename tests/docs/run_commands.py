@@ -64,6 +64,9 @@ def prepare(scratch, root, run):
     for room in ("room_1", "room_2"):
         run(f"msc_vo synthesize {room} --frames 4 --width 160 --fps 4")
     (scratch / "sequences.txt").write_text("room_1\nroom_2\n")
+    # A dataset of a table of the literature, by the name of its folder.
+    shutil.copytree(root / "data" / "benchmarks", scratch / "data" / "benchmarks")
+    shutil.copytree(scratch / "room_1", scratch / "DATASETS" / "living_room_traj0_frei_png")
     # Shares of other machines; share 2 of 4 is run by its document.
     shares = [("1/2", "from_a"), ("2/2", "from_b"), ("1/2", "out"), ("2/2", "out")]
     shares += [(f"{k}/4", "out/shards") for k in (1, 3, 4)]

@@ -11,8 +11,10 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "msc_vo/datasets/trajectory.h"
 #include "msc_vo/datasets/trajectory_format.h"
 #include "msc_vo/exports/colmap_model.h"
+#include "msc_vo/exports/map_export.h"
 #include "msc_vo/exports/nerfstudio.h"
 #include "msc_vo/exports/trajectory_export.h"
 
@@ -49,6 +51,12 @@ TEST_F(ExportedTrajectoryTest, IsReadBack) {
   }
   EXPECT_THAT(FormatEuroc(poses), testing::HasSubstr("\n1305031102175304000,"));
   EXPECT_EQ(ReadTrajectoryFile(Path("euroc.csv")).poses[0].timestamp, 1305031102.175304);
+}
+
+TEST(Tum, HasTheCameraInTheWorld) {
+  EXPECT_THAT(FormatTrajectory({{1.5, TurnedRight()}}),
+              testing::HasSubstr("1.500000 1.0000000000 2.0000000000 3.0000000000 0.0000000000 "
+                                 "0.7071067812 0.0000000000 0.7071067812\n"));
 }
 
 TEST(Nerfstudio, HasTheAxesOfOpenGl) {
@@ -144,6 +152,14 @@ TEST_F(ColmapModelTest, HasDistortedPixelsAndTracks) {
   EXPECT_LT((image.features[0].pixel - projected).norm(), 4.0);  // of which 3 px are the error
   EXPECT_NEAR(model.images[0].features[0].pixel.x(),
               500.0 * (4.0 / 3.5) * (1.0 + 0.1 * (16.0 + 6.25) / 12.25) + 320.0, 1e-9);
+}
+
+TEST_F(ColmapModelTest, ItsGraphHasTheCamerasInTheWorld) {
+  const SavedSubMap submap = {0, map_, std::nullopt, {}};
+  const std::string graph = FormatG2o(submap, {});
+  EXPECT_THAT(graph, testing::StartsWith("VERTEX_SE3:QUAT 0 0 0 0 0 0 0 1\n"));
+  // Scalar last, and the camera has turned to its right.
+  EXPECT_THAT(graph, testing::HasSubstr("\nVERTEX_SE3:QUAT 1 1 2 3 0 0.707106781 0 0.707106781\n"));
 }
 
 TEST_F(ColmapModelTest, IsTheSameAsTextAndBinary) {
