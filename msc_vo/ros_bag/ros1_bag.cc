@@ -4,6 +4,7 @@
 #include "msc_vo/ros_bag/ros1_bag.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <stdexcept>
 #include <vector>
@@ -11,6 +12,9 @@
 #include <ros/serialization.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
+
+#include "msc_vo/ros_bag/little_endian_fields.h"
+#include "msc_vo/text/files.h"
 
 namespace msc_vo {
 
@@ -22,6 +26,17 @@ std::string BytesOf(const rosbag::MessageInstance& message) {
                                      static_cast<uint32_t>(bytes.size()));
   message.write(stream);
   return bytes;
+}
+
+// rosbag_storage allocates the length that the first record claims, before it reads the record.
+void CheckFirstRecord(const std::string& path) {
+  constexpr size_t kMagicBytes = 13;  // "#ROSBAG V2.0" and the end of the line
+  const std::string bytes = ReadBeginning(path, kMagicBytes + sizeof(uint32_t));
+  LittleEndianFields fields(bytes);
+  fields.Take(kMagicBytes);
+  if (fields.Read<uint32_t>() > std::filesystem::file_size(path)) {
+    throw std::runtime_error("its first record is longer than the file");
+  }
 }
 
 class Ros1Bag : public BagFile {
@@ -71,6 +86,7 @@ class Ros1Bag : public BagFile {
 
 std::unique_ptr<BagFile> OpenRos1Bag(const std::string& path) {
   try {
+    CheckFirstRecord(path);
     return std::make_unique<Ros1Bag>(path);
   } catch (const rosbag::BagUnindexedException&) {
     throw std::runtime_error(

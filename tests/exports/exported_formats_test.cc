@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
@@ -155,7 +156,7 @@ TEST_F(ColmapModelTest, HasDistortedPixelsAndTracks) {
 }
 
 TEST_F(ColmapModelTest, ItsGraphHasTheCamerasInTheWorld) {
-  const SavedSubMap submap = {0, map_, std::nullopt, {}};
+  const SavedSubMap submap = {0, std::move(map_), std::nullopt, {}};
   const std::string graph = FormatG2o(submap, {});
   EXPECT_THAT(graph, testing::StartsWith("VERTEX_SE3:QUAT 0 0 0 0 0 0 0 1\n"));
   // Scalar last, and the camera has turned to its right.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// Bags of ROS 2, from their container to the pixels. The last byte chooses the kind of file.
+// Bags of ROS 2, from their container to the pixels. The last byte chooses the kind of file. Those
+// of ROS 1 are left to rosbag_storage, which is not fuzzed.
 
 #include "tests/fuzz/input_folder.h"
 #include <opencv2/core.hpp>
@@ -15,7 +16,7 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   static const auto level = cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   static_cast<void>(level);
   static InputFolder folder;
-  if (size == 0) return 0;
+  if (size == 0 || AsText(data, size).substr(0, 7) == "#ROSBAG") return 0;
   constexpr const char* kNames[] = {"x.mcap", "x.db3", "x.mcap.zstd", "x.db3.zstd"};
   const std::string path =
       folder.Write(kNames[data[size - 1] % 4], std::string(AsText(data, size - 1)));

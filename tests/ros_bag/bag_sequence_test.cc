@@ -320,6 +320,21 @@ TEST_F(BagSequenceTest, NamesDamagedBagsOfRos2) {
   EXPECT_THAT(MessageOf([&] { OpenBag(Path("z.mcap")); }), Names("z.mcap"));
 }
 
+// Found by fuzzing: rosbag_storage allocated 2 GB for a file of 21 bytes.
+TEST_F(BagSequenceTest, RefusesBagsOfRos1WithLyingLengths) {
+  WriteText("lying.bag", "#ROSBAG V2.0\n\xff\xff\xff\x7f   ");
+  WriteText("short.bag", "#ROSBAG V2.0\n\xff");
+  for (const auto& [name, what] :
+       {std::pair("lying.bag", "longer than the file"), std::pair("short.bag", "too early")}) {
+    try {
+      OpenBag(Path(name));
+      ADD_FAILURE() << name << " is read";
+    } catch (const std::runtime_error& error) {
+      EXPECT_THAT(error.what(), Names(name, what));
+    }
+  }
+}
+
 TEST_F(BagSequenceTest, LeavesNothingBesideABag) {
   WriteBag(WriteDb3Bag(Path("x.db3")), "16UC1");
   // A database that keeps a log while it is open, as recorders set it.
