@@ -24,6 +24,14 @@ std::string SequencePath(const RunExport& arguments) {
                            ": does not say of which sequence it is; give it with --sequence");
 }
 
+void RefuseToOverwriteImages(const SequenceIndex& index, const RunExport& arguments) {
+  if (arguments.format == "colmap") {
+    RefuseToOverwrite(InputFolders(index), arguments.output);
+  } else {
+    RefuseToOverwriteSequence(index, arguments.output);
+  }
+}
+
 }  // namespace
 
 std::string TrajectoryPath(const std::string& run) {
@@ -38,11 +46,16 @@ RgbdDecoder OpenExportedSequence(const RunExport& arguments) {
   if (IsFolder(arguments.run) && sequence.camera.empty() && configuration.camera.IsEmpty()) {
     recorded = ReadRecordedRun(arguments.run).calibration;
   }
-  if (!recorded) return OpenDecoder(sequence, configuration);
+  if (!recorded) {
+    RgbdDecoder decoder = OpenDecoder(sequence, configuration);
+    RefuseToOverwriteImages(decoder.index(), arguments);
+    return decoder;
+  }
   const std::optional<int> max_width = configuration.camera.max_width;
   configuration.camera = SettingsOf(*recorded);
   configuration.camera.max_width = max_width;
   const RgbdDecoder decoder = OpenDecoder(sequence, configuration);
+  RefuseToOverwriteImages(decoder.index(), arguments);
   // The camera of undistorted images is that of the run, which the settings do not have.
   return {decoder.index(), *recorded};
 }

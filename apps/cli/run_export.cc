@@ -180,7 +180,11 @@ void CheckExport(const RunExport& arguments, const RgbdDecoder& sequence) {
 
 void WriteExport(const RunExport& arguments) {
   if (IsMapFormat(arguments.format)) return WriteMapExport(arguments);
-  RefuseToOverwrite({TrajectoryPath(arguments.run)}, arguments.output);
+  std::vector<std::string> inputs = {TrajectoryPath(arguments.run)};
+  for (const char* name : {"frames.csv", "lines.ply", "map.ply", "sequence.json", "summary.json"}) {
+    inputs.push_back(FileOf(arguments.run, name));
+  }
+  RefuseToOverwrite(inputs, arguments.output);
   if (arguments.format == "mcap") return WriteMcap(arguments);
   if (arguments.format == "ply") return WritePly(arguments);
   WriteFile(arguments.output, arguments.format == "nerfstudio" ? FormatNerfstudioOf(arguments)

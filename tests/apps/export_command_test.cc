@@ -108,6 +108,16 @@ TEST_F(ExportCommandTest, TakesTheCameraOfTheRun) {
   EXPECT_EQ(nlohmann::json::parse(ReadFile(Path("other.json")))["fl_x"], 150.0);
 }
 
+TEST_F(ExportCommandTest, OverwritesNoInput) {
+  const std::string frames = ReadFile(Path("run/frames.csv"));
+  EXPECT_THAT(Run({"export", Path("run"), "tum", Path("run/frames.csv")}, 1), Names("frames.csv"));
+  EXPECT_EQ(ReadFile(Path("run/frames.csv")), frames);
+  const std::string camera = ReadFile(Path("x/camera.txt"));
+  EXPECT_THAT(Run({"export", Path("run"), "nerfstudio", Path("x/camera.txt")}, 1),
+              Names("camera.txt"));
+  EXPECT_EQ(ReadFile(Path("x/camera.txt")), camera);
+}
+
 // replay --export writes what msc_vo export writes afterwards.
 TEST_F(ExportCommandTest, ReplayWritesTheSameBytes) {
   std::vector<std::string> replay = {"replay",  Path("x"),     "--output", Path("again"),
