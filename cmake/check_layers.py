@@ -24,7 +24,7 @@ LAYERS = [
     ["pose_estimation", "self_calibration"],
     ["tracking", "mapping", "logging"],  # the solver below needs no spdlog
     ["odometry", "datasets", "inertial"],
-    ["config", "diagnosis", "ros_bag", "openni"],
+    ["config", "diagnosis", "phone_recordings", "ros_bag", "openni"],
     ["recording", "results", "map_file"],
     ["apps"],
 ]
@@ -32,22 +32,22 @@ LAYER_OF = {folder: layer for layer, folders in enumerate(LAYERS) for folder in 
 
 # Header pattern -> folders that may include it. Headers that no pattern matches are allowed everywhere.
 OUTSIDE_HEADERS = [
-    (r"opencv2/", {"image_files", "sensor", "features", "datasets", "ros_bag", "openni", "odometry", "diagnosis",
-                   "results", "apps"}),
+    (r"opencv2/", {"image_files", "sensor", "features", "datasets", "phone_recordings", "ros_bag", "openni",
+                   "odometry", "diagnosis", "results", "apps"}),
     (r"(rosbag|ros|fastcdr)/|(zstd|lz4frame)\.h$", {"ros_bag"}),
     (r"(OpenNI\.h|openni2/)", {"openni"}),
     (r"sqlite3\.h$", {"map_file", "ros_bag"}),
     (r"spdlog/", {"logging", "apps"}),
     (r"yaml-cpp/", {"config", "ros_bag"}),
-    (r"nlohmann/", {"report", "recording", "results", "apps"}),
+    (r"nlohmann/", {"report", "phone_recordings", "recording", "results", "apps"}),
     (r"ceres/", {"factors", "bundle_adjustment", "pose_estimation", "structure", "self_calibration",
                  "inertial", "apps"}),
     (r"(thread|mutex|shared_mutex|future|condition_variable)$",
-     {"odometry", "datasets", "ros_bag", "openni", "apps"}),
+     {"odometry", "datasets", "phone_recordings", "ros_bag", "openni", "apps"}),
     (r"atomic$", {"odometry", "datasets", "apps"}),
     (r"chrono$", {"timing", "odometry", "datasets", "openni", "results", "apps"}),
-    (r"(fstream|filesystem)$", {"text", "datasets", "ros_bag", "diagnosis", "config", "recording",
-                                "results", "map_file", "apps"}),
+    (r"(fstream|filesystem)$", {"text", "datasets", "phone_recordings", "ros_bag", "diagnosis", "config",
+                                "recording", "results", "map_file", "apps"}),
     (r"httplib", {"apps"}),
     (r"benchmark/", {"apps"}),
     (r"gtest/|gmock/", set()),

@@ -109,8 +109,9 @@ void WriteResults(const CalibrateArguments& arguments, const CalibrationReport& 
 }
 
 int Run(const CalibrateArguments& arguments) {
-  const Configuration configuration = MakeConfiguration(arguments.configuration);
+  Configuration configuration = MakeConfiguration(arguments.configuration);
   std::vector<RgbdDecoder> decoders = OpenSequences(arguments, configuration);
+  UseDepthSensorOf(decoders.front().index(), &configuration.odometry);
   CheckOutputs(arguments, decoders);
   RunArguments run = arguments.run;
   run.quiet = run.quiet || run.json;

@@ -181,9 +181,10 @@ void TakeFrame(const ReplayArguments& arguments, const FrameResult& frame, RunFi
 }
 
 // Runs the odometry. `resumed`: null for a new run.
-int Run(const ReplayArguments& arguments, const Configuration& configuration, Resumed* resumed) {
+int Run(const ReplayArguments& arguments, Configuration configuration, Resumed* resumed) {
   std::vector<std::string> check_warnings;
   const RgbdDecoder decoder = OpenChecked(arguments, configuration, &check_warnings);
+  UseDepthSensorOf(decoder.index(), &configuration.odometry);
   const std::string output = OutputFolder(arguments);
   RefuseToOverwriteInputs(decoder.index(), arguments.configuration.InputFiles(), output);
   const SequenceIdentity sequence = IdentifySequence(decoder.index());

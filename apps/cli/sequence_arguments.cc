@@ -9,11 +9,13 @@
 #include <utility>
 #include <vector>
 
+#include "apps/cli/modules.h"
 #include "msc_vo/datasets/camera_preset.h"
 #include "msc_vo/datasets/clipped_depth_search.h"
 #include "msc_vo/datasets/sequence.h"
 #include "msc_vo/datasets/sequence_calibration.h"
 #include "msc_vo/openni/openni_source.h"
+#include "msc_vo/phone_recordings/folder_sequence.h"
 #include "msc_vo/ros_bag/bag_file.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
@@ -38,7 +40,8 @@ SequenceIndex OpenSource(const SequenceArguments& arguments) {
   if (IsLiveCamera(source)) return OpenOpenNiCamera(source.substr(sizeof(kCameraPrefix) - 1));
   if (is_bag) return OpenBag(source, arguments.topics);
   if (IsOni(source)) return OpenOniFile(source);
-  return OpenSequence(source, arguments.format);
+  const PhoneOptions options = {DepthConfidenceFromName(arguments.min_confidence), LoadVideoReader};
+  return OpenFolder(source, arguments.format, options);
 }
 
 }  // namespace
@@ -55,7 +58,7 @@ CLI::Option* AddSequenceArguments(CLI::App* command, SequenceArguments* argument
 }
 
 void AddLayoutArguments(CLI::App* command, SequenceArguments* arguments) {
-  std::vector<std::string> formats = SequenceFormatNames();
+  std::vector<std::string> formats = FolderFormatNames();
   formats.insert(formats.begin(), "auto");
   command->add_option("--format", arguments->format, "Layout of the folder")
       ->check(CLI::IsMember(formats))
@@ -70,6 +73,11 @@ void AddLayoutArguments(CLI::App* command, SequenceArguments* arguments) {
                       "Topic of the colour images of a ROS bag; default: found by its type");
   command->add_option("--depth-topic", arguments->topics.depth,
                       "Topic of the depth images of a ROS bag; default: found by its type");
+  command
+      ->add_option("--min-confidence", arguments->min_confidence,
+                   "Least confidence of the depths of a telephone that are used")
+      ->check(CLI::IsMember({"low", "medium", "high"}))
+      ->capture_default_str();
 }
 
 RgbdDecoder OpenDecoder(const SequenceArguments& arguments, const Configuration& configuration,
@@ -82,6 +90,11 @@ RgbdDecoder OpenDecoder(const SequenceArguments& arguments, const Configuration&
   Calibration calibration = ResolveCalibration(configuration.camera, arguments.camera, &index);
   index.clipped_depth = FindClippedDepth(index);
   return {std::move(index), std::move(calibration)};
+}
+
+void UseDepthSensorOf(const SequenceIndex& index, OdometryOptions* options) {
+  DepthSensor& sensor = options->features.depth_sensor;
+  if (sensor == DepthSensor::kAuto) sensor = index.depth_sensor;
 }
 
 std::string SequenceName(const std::string& directory) {

@@ -15,6 +15,7 @@
 #include "msc_vo/datasets/clipped_depth_search.h"
 #include "msc_vo/datasets/rgbd_decoder.h"
 #include "msc_vo/datasets/sequence_calibration.h"
+#include "msc_vo/phone_recordings/folder_sequence.h"
 
 namespace msc_vo {
 
@@ -26,7 +27,7 @@ RgbdDecoder Open(const py::object& directory, const std::string& format, const s
                  const py::object& config) {
   Configuration configuration;
   if (!config.is_none()) ReadConfiguration(PathArgument(config), &configuration);
-  SequenceIndex index = OpenSequence(PathArgument(directory), format);
+  SequenceIndex index = OpenFolder(PathArgument(directory), format, PhoneOptions());
   Calibration calibration = ResolveCalibration(configuration.camera, camera, &index);
   index.clipped_depth = FindClippedDepth(index);
   return {std::move(index), std::move(calibration)};

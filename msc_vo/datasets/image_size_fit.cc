@@ -62,7 +62,7 @@ void FitToImageSizes(const ImageSize& color, const ImageSize& depth, std::option
     if (!HaveSameShape(color, depth)) return;
     calibration->depth_camera =
         CameraAtSameView(ScaledCamera(recorded, depth), calibration->distortion);
-    if (differ) {
+    if (differ && !index->is_same_view) {
       index->warnings.push_back(
           FormatText("depth images of %dx%d are taken for the view of the colour images of %dx%d; "
                      "describe the "

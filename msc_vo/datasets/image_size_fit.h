@@ -31,7 +31,8 @@ PinholeCamera ScaledCamera(const PinholeCamera& camera, const ImageSize& size);
 /// - Colour images wider than `max_width`: they are reduced to it. If it is not set, images with a
 ///   depth camera are reduced to kDefaultMaxWidth.
 ///
-/// Both add a sentence to `index->warnings`.
+/// Both add a sentence to `index->warnings`; the first one unless the source says that the views are
+/// the same.
 void FitToImageSizes(const ImageSize& color, const ImageSize& depth, std::optional<int> max_width,
                      SequenceIndex* index, Calibration* calibration);
 

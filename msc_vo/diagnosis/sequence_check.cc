@@ -185,6 +185,9 @@ Findings CheckSequence(const RgbdDecoder& decoder, const SequenceCheckOptions& o
   const SequenceIndex& index = decoder.index();
   const Calibration& calibration = decoder.calibration();
   Findings findings;
+  if (!index.recorder.empty()) {
+    findings.push_back(Good("sequence.recorder", "recorded with: " + index.recorder));
+  }
   for (const std::string& warning : index.warnings) {
     findings.push_back(Warning("sequence", warning, ""));
   }
