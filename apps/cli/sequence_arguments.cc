@@ -4,6 +4,7 @@
 #include "apps/cli/sequence_arguments.h"
 
 #include <filesystem>
+#include <memory>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "apps/cli/modules.h"
 #include "msc_vo/datasets/camera_preset.h"
 #include "msc_vo/datasets/clipped_depth_search.h"
+#include "msc_vo/datasets/image_masks.h"
 #include "msc_vo/datasets/sequence.h"
 #include "msc_vo/datasets/sequence_calibration.h"
 #include "msc_vo/openni/openni_source.h"
@@ -42,6 +44,19 @@ SequenceIndex OpenSource(const SequenceArguments& arguments) {
   if (IsOni(source)) return OpenOniFile(source);
   const PhoneOptions options = {DepthConfidenceFromName(arguments.min_confidence), LoadVideoReader};
   return OpenFolder(source, arguments.format, options);
+}
+
+std::shared_ptr<const ImageMasks> OpenMasks(const SequenceArguments& arguments,
+                                            const SequenceIndex& index) {
+  if (arguments.mask.empty()) return nullptr;
+  if (index.camera && IsFolder(arguments.mask)) {
+    throw std::runtime_error(arguments.mask +
+                             ": images of a live camera have no masks; give one image for all");
+  }
+  return std::make_shared<ImageMasks>(
+      arguments.mask,
+      arguments.mask_zero ? ImageMasks::LeftOut::kZero : ImageMasks::LeftOut::kNonZero,
+      index.entries);
 }
 
 }  // namespace
@@ -80,6 +95,17 @@ void AddLayoutArguments(CLI::App* command, SequenceArguments* arguments) {
       ->capture_default_str();
 }
 
+void AddMaskArguments(CLI::App* command, SequenceArguments* arguments) {
+  CLI::Option* const mask = command->add_option(
+      "--mask", arguments->mask,
+      "Image whose pixels that are not zero are left out of all images (a robot's own arm), or "
+      "folder with one for each image, by name (people found by a detector)");
+  command
+      ->add_flag("--mask-zero", arguments->mask_zero,
+                 "Leave out pixels of the mask that are zero instead, as in masks of COLMAP")
+      ->needs(mask);
+}
+
 RgbdDecoder OpenDecoder(const SequenceArguments& arguments, const Configuration& configuration,
                         LiveCameras live_cameras) {
   if (live_cameras == LiveCameras::kRefused && IsLiveCamera(arguments.directory)) {
@@ -89,6 +115,7 @@ RgbdDecoder OpenDecoder(const SequenceArguments& arguments, const Configuration&
   SequenceIndex index = OpenSource(arguments);
   Calibration calibration = ResolveCalibration(configuration.camera, arguments.camera, &index);
   index.clipped_depth = FindClippedDepth(index);
+  index.masks = OpenMasks(arguments, index);
   return {std::move(index), std::move(calibration)};
 }
 

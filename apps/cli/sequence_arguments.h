@@ -20,6 +20,8 @@ struct SequenceArguments {
   BagTopics topics;
   std::string camera;                     ///< preset; may be empty
   std::string min_confidence = "medium";  ///< of depths of telephones
+  std::string mask;                       ///< file or folder; empty: none
+  bool mask_zero = false;                 ///< zero is left out, instead of what is not zero
 };
 
 /// Declares SEQUENCE and the arguments of AddLayoutArguments(). SEQUENCE, which is returned, is
@@ -29,6 +31,9 @@ CLI::Option* AddSequenceArguments(CLI::App* command, SequenceArguments* argument
 /// Declares --format, --camera, --color-topic, --depth-topic and --min-confidence only, for
 /// commands with several sequences.
 void AddLayoutArguments(CLI::App* command, SequenceArguments* arguments);
+
+/// Declares --mask and --mask-zero, for commands that use the images.
+void AddMaskArguments(CLI::App* command, SequenceArguments* arguments);
 
 enum class LiveCameras { kAllowed, kRefused };
 

@@ -17,6 +17,7 @@
 namespace msc_vo {
 
 class ImageContainer;
+class ImageMasks;
 class RgbdCamera;
 struct SequenceFormat;
 
@@ -62,10 +63,14 @@ struct SequenceIndex {
   DepthSensor depth_sensor = DepthSensor::kAuto;
   /// The images, if they are in one file; null: every image is a file.
   std::shared_ptr<const ImageContainer> container;
+  /// What is left out of the images; null: nothing.
+  std::shared_ptr<const ImageMasks> masks;
   /// A live camera. There are no entries then.
   std::shared_ptr<RgbdCamera> camera;
   /// Raw depth units per metre that the source defines. They replace those of a camera preset.
   std::optional<double> depth_scale;
+  /// Units per metre of depth images of floating-point numbers.
+  double float_depth_scale = 1.0;
   std::vector<TimedPose> ground_truth;  ///< in order of time; empty: there is none
   /// Empty if `ground_truth` is that. Otherwise the poses are the estimate of another program,
   /// which this names, "ARKit": a reference to compare with, whose errors are not known.

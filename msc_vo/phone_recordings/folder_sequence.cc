@@ -10,7 +10,8 @@ namespace msc_vo {
 namespace {
 
 std::vector<SequenceFormat> PhoneFormats(const PhoneOptions& options) {
-  return {StrayScannerFormat(options), PolycamFormat(options), ScannerAppFormat(options)};
+  return {StrayScannerFormat(options), PolycamFormat(options), ScannerAppFormat(options),
+          VideoFolderFormat(options)};
 }
 
 }  // namespace

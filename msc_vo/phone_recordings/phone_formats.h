@@ -13,5 +13,7 @@ namespace msc_vo {
 SequenceFormat StrayScannerFormat(const PhoneOptions& options);
 SequenceFormat PolycamFormat(const PhoneOptions& options);
 SequenceFormat ScannerAppFormat(const PhoneOptions& options);
+// Of any camera.
+SequenceFormat VideoFolderFormat(const PhoneOptions& options);
 
 }  // namespace msc_vo

@@ -76,6 +76,8 @@ cv::Mat PhoneImages::ConfidentDepth(const PhoneImage& image, int* num_depths,
 
 StoredImage PhoneImages::ReadDepth(int index) const {
   const PhoneImage& image = images_.at(static_cast<size_t>(index));
+  const bool is_as_stored = image.confidence_path.empty() || least_ == DepthConfidence::kLow;
+  if (is_as_stored && !Resamples(index)) return {ReadFile(image.depth_path, kMaxImageBytes), {}};
   int num_depths = 0, num_removed = 0;
   cv::Mat depth = ConfidentDepth(image, &num_depths, &num_removed);
   if (Resamples(index)) depth = camera_->Resample(index, depth, cv::INTER_NEAREST);

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// Commands on recordings of telephones.
+
+#include <filesystem>
+
+#include "tests/apps/command_process.h"
+#include "tests/phone_recordings/phone_folders.h"
+#include "tests/support/message_matchers.h"
+#include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "msc_vo/datasets/sequence.h"
+#include "msc_vo/text/files.h"
+
+namespace msc_vo {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+class PhoneCommandTest : public TemporaryFolder {
+ protected:
+  void SetUp() override {
+    TemporaryFolder::SetUp();
+    const PhoneSource source = ReadPhoneSource(MSC_VO_DATA_FOLDER "/room", 32);
+    WriteStrayScanner(source, {}, Path("stray"));
+  }
+  Json Summary(const std::string& run) const {
+    return Json::parse(ReadFile(Path(run + "/summary.json")));
+  }
+  static void Expect(int exit_code, const CommandOutcome& outcome) {
+    EXPECT_EQ(outcome.exit_code, exit_code) << outcome.output;
+  }
+};
+
+TEST_F(PhoneCommandTest, ReplayComparesWithAReference) {
+  Expect(0, RunCommand({"replay", Path("stray"), "--output", Path("out"), "--quiet"}));
+  const Json summary = Summary("out");
+  EXPECT_EQ(summary["sequence"]["format"], "stray-scanner");
+  EXPECT_EQ(summary["sequence"]["reference"], "ARKit");
+  EXPECT_EQ(summary["depth_sensor"], "lidar");
+  EXPECT_LT(summary["error"]["ape_rmse"].get<double>(), 0.03);
+  EXPECT_TRUE(fs::exists(Path("out/reference.txt")));
+  EXPECT_FALSE(fs::exists(Path("out/groundtruth.txt")));
+  EXPECT_THAT(ReadFile(Path("out/report.html")), testing::HasSubstr("reference (ARKit)"));
+}
+
+TEST_F(PhoneCommandTest, CheckNamesTheRecorder) {
+  const CommandOutcome outcome = RunCommand({"check", Path("stray")});
+  Expect(0, outcome);
+  EXPECT_THAT(outcome.output, Names("recorded with: Stray Scanner", "reference (ARKit): 32 poses"));
+}
+
+TEST_F(PhoneCommandTest, RecordedFolderGivesTheSameImages) {
+  Expect(0, RunCommand({"record", Path("stray"), Path("copy")}));
+  EXPECT_EQ(OpenSequence(Path("copy")).entries.size(), 32u);
+  EXPECT_TRUE(fs::exists(Path("copy/reference.txt")));
+  Expect(0, RunCommand({"replay", Path("copy"), "--output", Path("out"), "--quiet",
+                        "--depth-sensor", "lidar"}));
+  Expect(0, RunCommand({"replay", Path("stray"), "--output", Path("out2"), "--quiet"}));
+  EXPECT_EQ(ReadFile(Path("out/trajectory.txt")), ReadFile(Path("out2/trajectory.txt")));
+}
+
+}  // namespace
+}  // namespace msc_vo
