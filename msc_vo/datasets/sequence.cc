@@ -83,6 +83,10 @@ std::vector<std::string> SequenceFormatNames() {
   return names;
 }
 
+SequenceIndex OpenSequence(const std::string& directory, const std::string& format) {
+  return OpenSequence(directory, format, {});
+}
+
 SequenceIndex OpenSequence(const std::string& directory, const std::string& format_name,
                            const std::vector<SequenceFormat>& further) {
   const Formats formats = AllFormats(further);

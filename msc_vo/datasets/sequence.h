@@ -82,12 +82,14 @@ struct SequenceIndex {
 std::vector<std::string> SequenceFormatNames();
 
 /// Reads the lists and the ground truth of a sequence folder. `format` is "auto" or one of
-/// SequenceFormatNames(), or the name of one of the `further` layouts, which are looked for first.
+/// SequenceFormatNames().
 /// Throws std::runtime_error naming file, line and fix if the folder is not a sequence, a list or
 /// the ground truth is malformed, or fewer than half of the images can be used;
 /// std::invalid_argument on an unknown format.
-SequenceIndex OpenSequence(const std::string& directory, const std::string& format = "auto",
-                           const std::vector<SequenceFormat>& further = {});
+SequenceIndex OpenSequence(const std::string& directory, const std::string& format = "auto");
+/// The same with further layouts, which are looked for first.
+SequenceIndex OpenSequence(const std::string& directory, const std::string& format,
+                           const std::vector<SequenceFormat>& further);
 
 /// Sorts the entries by time and removes those with the stamp of another one, with warnings.
 void OrderEntries(SequenceIndex* index);

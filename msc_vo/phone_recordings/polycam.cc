@@ -102,7 +102,7 @@ SequenceIndex ReadPolycam(const std::string& directory, const PhoneOptions& opti
   recording.confidence = {127, 255};
   recording.poses_by = is_corrected ? "Polycam" : "ARKit";
   recording.intrinsics = cameras.string();
-  recording.times = "the names in " + (folder / (prefix + "images")).string() + ", microseconds";
+  recording.times = (folder / (prefix + "images")).string() + " (names, microseconds)";
   return MakePhoneSequence(std::move(recording), options.least_confidence);
 }
 

@@ -90,7 +90,7 @@ SequenceIndex ReadScannerApp(const std::string& directory, const PhoneOptions& o
   }
   recording.poses_by = "ARKit";
   recording.intrinsics = directory + "/frame_*.json";
-  recording.times = "\"time\" in " + recording.intrinsics + ", seconds";
+  recording.times = recording.intrinsics + " (\"time\", seconds)";
   return MakePhoneSequence(std::move(recording), options.least_confidence);
 }
 

@@ -62,7 +62,7 @@ TEST_F(FloatDepthTest, OfOtherUnitsNeedsTheirNumber) {
   settings.float_depth_scale = 1000.0;
   const RgbdDecoder decoder = Open(settings);
   ExpectDepth(decoder.Decode(0).depth);
-  EXPECT_EQ(decoder.ReadForExport(0).depth.pixels.at<float>(3, 3), 1.5f);
+  EXPECT_FLOAT_EQ(decoder.ReadForExport(0).depth.pixels.at<float>(3, 3), 1.5f);
 }
 
 TEST_F(FloatDepthTest, Of16BitsInTiffHasTheUnitsOfTheCamera) {
