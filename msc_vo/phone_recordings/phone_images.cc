@@ -84,6 +84,10 @@ StoredImage PhoneImages::ReadDepth(int index) const {
   return {"", depth};
 }
 
+std::string PhoneImages::Settings() const {
+  return std::string("least confidence ") + ToString(least_);
+}
+
 cv::Mat PhoneImages::AlignMask(int index, const cv::Mat& mask) const {
   return Resamples(index) ? camera_->Resample(index, mask, cv::INTER_NEAREST) : mask;
 }

@@ -34,6 +34,7 @@ class PhoneImages : public ImageContainer {
 
   StoredImage ReadColor(int index) const override;
   StoredImage ReadDepth(int index) const override;
+  std::string Settings() const override;
   cv::Mat AlignMask(int index, const cv::Mat& mask) const override;
 
   /// Ratio of the depths of some evenly spaced images that are removed for their confidence.

@@ -134,7 +134,7 @@ std::vector<ReportNumber> MakeNumbers(const RunSummary& summary, const RunContex
            FormatText("%d pairs", error.rpe_per_second.translation.count)});
     }
     numbers.push_back({"Coverage", FormatText("%.1f %%", 100.0 * error.coverage),
-                       "of the ground-truth poses have an estimated pose"});
+                       "of the reference poses have an estimated pose"});
     for (const std::string& warning : error.warnings) {
       numbers.push_back({TruthName(context.sequence), "doubtful", warning});
     }
@@ -262,7 +262,7 @@ std::string ErrorRows(const TrajectoryError& error) {
     rows += Row("", FormatText("RPE %.1f mm/s, %.2f deg/s", 1000.0 * second.translation.rmse,
                                RadiansToDegrees(second.rotation.rmse)));
   }
-  return rows + Row("", FormatText("%.1f %% of the ground-truth poses have an estimated pose",
+  return rows + Row("", FormatText("%.1f %% of the reference poses have an estimated pose",
                                    100.0 * error.coverage));
 }
 
