@@ -18,7 +18,7 @@ class CommonCamera {
  public:
   /// Displacement that is left alone, pixels of an image kReferenceWidth wide. Chosen by
   /// measurement, see docs/lab/phones.md.
-  static constexpr double kMaxDisplacement = 0.5;
+  static constexpr double kMaxDisplacement = 0.25;
   static constexpr double kReferenceWidth = 1280.0;
 
   /// `cameras`: those of all images, of one size; at least one. Takes the median of each number.
