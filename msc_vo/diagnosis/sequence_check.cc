@@ -200,13 +200,13 @@ Findings CheckSequence(const RgbdDecoder& decoder, const SequenceCheckOptions& o
   const SequenceIndex& index = decoder.index();
   const Calibration& calibration = decoder.calibration();
   Findings findings;
-  if (!index.recorder.empty()) {
-    findings.push_back(Good("sequence.recorder", "recorded with: " + index.recorder));
-  }
   for (const std::string& warning : index.warnings) {
     findings.push_back(Warning("sequence", warning, ""));
   }
   AddFileFindings(index, &findings);
+  if (!index.recorder.empty()) {
+    findings.push_back(Good("sequence.recorder", "recorded with: " + index.recorder));
+  }
   AddStampFindings(index, &findings);
   AddCameraFindings(calibration, index.format, &findings);
   const int count = std::min(std::max(options.max_images, 1), decoder.size());

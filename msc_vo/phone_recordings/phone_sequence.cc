@@ -51,10 +51,12 @@ void DescribeConfidence(const PhoneImages& images, const std::vector<PhoneFrame>
         num_without, frames.size()));
   }
   if (least == DepthConfidence::kLow || num_without == frames.size()) return;
+  const double ratio = images.RemovedDepthRatio();
+  if (ratio == 0.0) return;
   index->warnings.push_back(
       FormatText("depths of less than %s confidence are left out, %.1f %% of a sample; "
                  "--min-confidence changes that",
-                 ToString(least), 100.0 * images.RemovedDepthRatio()));
+                 ToString(least), 100.0 * ratio));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 // repository PolyCam/polyform documents these files (README.md): t_ij is row i, column j of the
 // camera in the world, with the axes of ARKit.
 
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
@@ -41,7 +42,7 @@ bool IsPolycam(const std::string& directory) {
 
 double TimeOf(const std::string& path) {
   const std::optional<double> time = ParseNumber(fs::path(path).stem().string());
-  if (time) return *time / UnitsPerSecond(TimeUnit::kMicroseconds);
+  if (time && std::isfinite(*time)) return *time / UnitsPerSecond(TimeUnit::kMicroseconds);
   throw std::runtime_error(path +
                            ": its name is no time in microseconds; remove it from the folder");
 }

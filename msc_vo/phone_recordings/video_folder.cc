@@ -5,7 +5,7 @@
 // rgb, video; .mp4, .mov, .mkv, .avi) and depth/. times.txt may give the times, a line for each
 // image; camera.txt and groundtruth.txt are as in a TUM folder.
 
-#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
@@ -52,7 +52,8 @@ std::vector<double> ReadTimes(const std::string& path, size_t num_images) {
   std::vector<double> times;
   for (const TextLine& line : ReadTextLines(path)) {
     const std::optional<double> time = ParseNumber(line.fields.front());
-    if (!time) line.Fail("'" + line.fields.front() + "' is no time; correct the line");
+    if (!time || !std::isfinite(*time))
+      line.Fail("'" + line.fields.front() + "' is no time; correct the line");
     if (!times.empty() && *time <= times.back()) line.Fail("the times must ascend; correct them");
     times.push_back(*time);
   }

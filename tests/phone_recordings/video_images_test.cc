@@ -104,6 +104,8 @@ TEST_F(VideoFolderTest, ReadsTimes) {
   EXPECT_THAT(MessageOf([&] { Open(); }), Names("times.txt", "21 times", "20 images"));
   WriteText("seq/times.txt", "1\n2\n2\n");
   EXPECT_THAT(MessageOf([&] { Open(); }), Names("times.txt:3", "ascend"));
+  WriteText("seq/times.txt", "nan\n2\n3\n");
+  EXPECT_THAT(MessageOf([&] { Open(); }), Names("times.txt:1", "nan", "no time"));
 }
 
 TEST_F(VideoFolderTest, RefusesAnotherNumberOfDepthImages) {
