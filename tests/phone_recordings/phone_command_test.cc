@@ -14,6 +14,7 @@
 
 #include "msc_vo/datasets/sequence.h"
 #include "msc_vo/text/files.h"
+#include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
 namespace {
@@ -52,6 +53,30 @@ TEST_F(PhoneCommandTest, CheckNamesTheRecorder) {
   const CommandOutcome outcome = RunCommand({"check", Path("stray")});
   Expect(0, outcome);
   EXPECT_THAT(outcome.output, Names("recorded with: Stray Scanner", "reference (ARKit): 32 poses"));
+}
+
+TEST_F(PhoneCommandTest, MasksBelongToTheImagesOfTheVideo) {
+  cv::Mat mask = cv::Mat::zeros(240, 320, CV_8UC1);  // half the size of the images
+  mask.colRange(0, 120) = 1;
+  fs::create_directories(Path("masks"));
+  for (int i = 0; i < 31; ++i) cv::imwrite(Path("masks/") + FormatText("%06d.png", i), mask);
+  const std::vector<std::string> command = {"replay",   Path("stray"), "--mask",  Path("masks"),
+                                            "--output", Path("out"),   "--quiet", "--overwrite"};
+  const CommandOutcome missing = RunCommand(command);
+  Expect(1, missing);
+  EXPECT_THAT(missing.output, Names("masks", "rgb.mp4/000031", "000031.png"));
+  EXPECT_FALSE(fs::exists(Path("out")));
+  cv::imwrite(Path("masks/000031.png"), mask);
+  Expect(0, RunCommand(command));
+  EXPECT_LT(Summary("out")["error"]["ape_rmse"].get<double>(), 0.03);
+  // All masks are equal.
+  Expect(0, RunCommand({"replay", Path("stray"), "--mask", Path("masks/000000.png"), "--output",
+                        Path("one"), "--quiet"}));
+  EXPECT_EQ(ReadFile(Path("one/trajectory.txt")), ReadFile(Path("out/trajectory.txt")));
+  Expect(0, RunCommand({"replay", Path("stray"), "--output", Path("whole"), "--quiet"}));
+  EXPECT_NE(ReadFile(Path("whole/trajectory.txt")), ReadFile(Path("out/trajectory.txt")));
+  const CommandOutcome zero = RunCommand({"check", Path("stray"), "--mask-zero"});
+  Expect(2, zero);  // needs --mask
 }
 
 TEST_F(PhoneCommandTest, RecordedFolderGivesTheSameImages) {
