@@ -14,8 +14,10 @@ set(MSC_VO_PUBLIC_HEADERS
   msc_vo/camera/undistorted_camera.h
   # Sequences and results
   msc_vo/datasets/accelerometer.h
+  msc_vo/datasets/image_masks.h
   msc_vo/datasets/paced_source.h
   msc_vo/datasets/rgbd_source.h
+  msc_vo/phone_recordings/folder_sequence.h
   msc_vo/diagnosis/sequence_check.h
   msc_vo/datasets/trajectory.h
   msc_vo/results/result_files.h

@@ -180,8 +180,10 @@ void BenchmarkRunner::RunMode(const RgbdDecoder& decoder, const Configuration& c
     row->folder = RunFolder(row->sequence, row->mode);
     RefuseToOverwriteInputs(decoder.index(), plan_.input_files, row->folder);
     RunFiles files(row->folder, IdentifySequence(decoder.index()));
+    Configuration own = configuration;
+    UseDepthSensorOf(decoder.index(), &own.odometry);
     const SequenceRun run =
-        RunSequence(decoder, configuration, plan_.run, interrupt_,
+        RunSequence(decoder, own, plan_.run, interrupt_,
                     {[&](const FrameResult& frame) { files.Add(frame); }, {}, {}});
     row->summary = run.summary;
     row->cost = run.context.cost;

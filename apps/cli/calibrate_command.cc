@@ -109,8 +109,9 @@ void WriteResults(const CalibrateArguments& arguments, const CalibrationReport& 
 }
 
 int Run(const CalibrateArguments& arguments) {
-  const Configuration configuration = MakeConfiguration(arguments.configuration);
+  Configuration configuration = MakeConfiguration(arguments.configuration);
   std::vector<RgbdDecoder> decoders = OpenSequences(arguments, configuration);
+  UseDepthSensorOf(decoders.front().index(), &configuration.odometry);
   CheckOutputs(arguments, decoders);
   RunArguments run = arguments.run;
   run.quiet = run.quiet || run.json;
@@ -130,6 +131,7 @@ Command AddCalibrateCommand(CLI::App* app) {
   command->add_option("sequences", arguments->sequences, "Folders with sequences of one camera")
       ->required();
   AddLayoutArguments(command, &arguments->layout);
+  AddMaskArguments(command, &arguments->layout);
   AddConfigurationArguments(command, &arguments->configuration);
   AddCameraFileArgument(command, &arguments->configuration);
   AddDepthSensorArgument(command, &arguments->configuration);

@@ -44,8 +44,9 @@ std::ptrdiff_t Count(const Findings& findings, Severity severity) {
 }
 
 int Run(const CheckArguments& arguments) {
-  const Configuration configuration = MakeConfiguration(arguments.configuration);
+  Configuration configuration = MakeConfiguration(arguments.configuration);
   const RgbdDecoder decoder = OpenDecoder(arguments.sequence, configuration);
+  UseDepthSensorOf(decoder.index(), &configuration.odometry);
   SequenceCheckOptions options = arguments.options;
   options.odometry = configuration.odometry;
   if (arguments.all) options.max_images = decoder.size();
@@ -72,6 +73,7 @@ Command AddCheckCommand(CLI::App* app) {
   CLI::App* command = app->add_subcommand(
       "check", "Diagnose a sequence: files, time stamps, images, depth, calibration, ground truth");
   AddSequenceArguments(command, &arguments->sequence)->required();
+  AddMaskArguments(command, &arguments->sequence);
   AddConfigurationArguments(command, &arguments->configuration);
   AddCameraFileArgument(command, &arguments->configuration);
   AddDepthSensorArgument(command, &arguments->configuration);

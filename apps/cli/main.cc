@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
 #include <algorithm>
+#include <cstdlib>
 #include <exception>
 #include <optional>
 #include <string>
@@ -110,6 +111,7 @@ const std::vector<std::string>& CommandArguments() { return command_arguments; }
 
 int main(int argc, char** argv) {
   msc_vo::KeepFreedMemory();
+  setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 0);  // before there are other threads
   msc_vo::DisableOpenCvThreads();
   msc_vo::PrepareStandardStreams();
   try {

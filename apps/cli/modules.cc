@@ -13,6 +13,10 @@ namespace msc_vo {
 
 namespace {
 
+constexpr char kVideoModule[] = "msc_vo_video.so";
+constexpr char kInstallVideo[] =
+    "install the package msc-vo completely, or libopencv-videoio-dev and build again";
+
 // A module in the build folder or where it is installed, both relative to the program; empty if
 // there is none.
 std::string FindModule(const std::string& file) {
@@ -46,9 +50,15 @@ std::unique_ptr<SurfaceFusion> LoadSurfaceFusion(const SurfaceFusionOptions& opt
 }
 
 std::unique_ptr<VideoFile> LoadVideoFile() {
-  const auto make = reinterpret_cast<MakeVideoFile>(
-      LoadFunction("msc_vo_video.so", kMakeVideoFile, "build or install msc_vo completely"));
+  const auto make =
+      reinterpret_cast<MakeVideoFile>(LoadFunction(kVideoModule, kMakeVideoFile, kInstallVideo));
   return std::unique_ptr<VideoFile>(make());
+}
+
+std::unique_ptr<VideoReader> LoadVideoReader() {
+  const auto make = reinterpret_cast<MakeVideoReaderOfModule>(
+      LoadFunction(kVideoModule, kMakeVideoReader, kInstallVideo));
+  return std::unique_ptr<VideoReader>(make());
 }
 
 }  // namespace msc_vo

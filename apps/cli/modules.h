@@ -15,5 +15,6 @@ namespace msc_vo {
 
 std::unique_ptr<SurfaceFusion> LoadSurfaceFusion(const SurfaceFusionOptions& options);
 std::unique_ptr<VideoFile> LoadVideoFile();
+std::unique_ptr<VideoReader> LoadVideoReader();
 
 }  // namespace msc_vo

@@ -115,7 +115,8 @@ int Run(const RecordArguments& arguments) {
   TumWriter writer(arguments.folder, decoder.calibration(),
                    "recorded by msc_vo from " + decoder.index().directory);
   if (!decoder.index().ground_truth.empty()) {
-    WriteTrajectory(arguments.folder + "/groundtruth.txt", decoder.index().ground_truth);
+    WriteTrajectory(arguments.folder + "/" + TruthFileName(decoder.index()),
+                    decoder.index().ground_truth);
   }
   Recording recording;
   try {

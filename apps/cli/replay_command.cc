@@ -191,10 +191,11 @@ void Conclude(int exit_code, const std::string& output) {
 }
 
 // Runs the odometry. `resumed`: null for a new run. `exports`: to be written when the map is free.
-int Run(const ReplayArguments& arguments, const Configuration& configuration, Resumed* resumed,
+int Run(const ReplayArguments& arguments, Configuration configuration, Resumed* resumed,
         std::vector<RunExport>* exports) {
   std::vector<std::string> check_warnings;
   const RgbdDecoder decoder = OpenChecked(arguments, configuration, &check_warnings);
+  UseDepthSensorOf(decoder.index(), &configuration.odometry);
   const std::string output = OutputFolder(arguments);
   RefuseToOverwriteInputs(decoder.index(), arguments.configuration.InputFiles(), output);
   const SequenceIdentity sequence = IdentifySequence(decoder.index());

@@ -13,6 +13,8 @@
 #include "apps/cli/commands.h"
 #include "msc_vo/checkpoint/checksum.h"
 #include "msc_vo/datasets/camera_file.h"
+#include "msc_vo/datasets/image_container.h"
+#include "msc_vo/datasets/image_masks.h"
 #include "msc_vo/results/sequence_identity.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
@@ -45,6 +47,9 @@ void AddImages(const SequenceIndex& index, std::map<std::string, std::string>* f
   (*facts)["sequence: checksum of the time stamps"] = sequence.stamps;
   (*facts)["sequence: checksum of names and sizes of the images"] = sequence.images;
   (*facts)["sequence: raw depth without a measurement"] = std::to_string(index.invalid_depth);
+  (*facts)["sequence: settings"] = index.container ? index.container->Settings() : "";
+  (*facts)["option camera.float_depth_scale"] = FormatNumber(index.float_depth_scale);
+  (*facts)["--mask"] = index.masks ? index.masks->description() : "off";
   const DepthLimits& limits = index.clipped_depth.limits;
   (*facts)["sequence: raw depths at which it is clipped"] =
       FormatNumber(limits.nearest) + " " + FormatNumber(limits.farthest);

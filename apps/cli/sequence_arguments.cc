@@ -4,16 +4,20 @@
 #include "apps/cli/sequence_arguments.h"
 
 #include <filesystem>
+#include <memory>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
 #include <vector>
 
+#include "apps/cli/modules.h"
 #include "msc_vo/datasets/camera_preset.h"
 #include "msc_vo/datasets/clipped_depth_search.h"
+#include "msc_vo/datasets/image_masks.h"
 #include "msc_vo/datasets/sequence.h"
 #include "msc_vo/datasets/sequence_calibration.h"
 #include "msc_vo/openni/openni_source.h"
+#include "msc_vo/phone_recordings/folder_sequence.h"
 #include "msc_vo/ros_bag/bag_file.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
@@ -38,7 +42,21 @@ SequenceIndex OpenSource(const SequenceArguments& arguments) {
   if (IsLiveCamera(source)) return OpenOpenNiCamera(source.substr(sizeof(kCameraPrefix) - 1));
   if (is_bag) return OpenBag(source, arguments.topics);
   if (IsOni(source)) return OpenOniFile(source);
-  return OpenSequence(source, arguments.format);
+  const PhoneOptions options = {DepthConfidenceFromName(arguments.min_confidence), LoadVideoReader};
+  return OpenFolder(source, arguments.format, options);
+}
+
+std::shared_ptr<const ImageMasks> OpenMasks(const SequenceArguments& arguments,
+                                            const SequenceIndex& index) {
+  if (arguments.mask.empty()) return nullptr;
+  if (index.camera && IsFolder(arguments.mask)) {
+    throw std::runtime_error(arguments.mask +
+                             ": images of a live camera have no masks; give one image for all");
+  }
+  return std::make_shared<ImageMasks>(
+      arguments.mask,
+      arguments.mask_zero ? ImageMasks::LeftOut::kZero : ImageMasks::LeftOut::kNonZero,
+      index.entries);
 }
 
 }  // namespace
@@ -55,7 +73,7 @@ CLI::Option* AddSequenceArguments(CLI::App* command, SequenceArguments* argument
 }
 
 void AddLayoutArguments(CLI::App* command, SequenceArguments* arguments) {
-  std::vector<std::string> formats = SequenceFormatNames();
+  std::vector<std::string> formats = FolderFormatNames();
   formats.insert(formats.begin(), "auto");
   command->add_option("--format", arguments->format, "Layout of the folder")
       ->check(CLI::IsMember(formats))
@@ -70,6 +88,22 @@ void AddLayoutArguments(CLI::App* command, SequenceArguments* arguments) {
                       "Topic of the colour images of a ROS bag; default: found by its type");
   command->add_option("--depth-topic", arguments->topics.depth,
                       "Topic of the depth images of a ROS bag; default: found by its type");
+  command
+      ->add_option("--min-confidence", arguments->min_confidence,
+                   "Least confidence of the depths of a telephone that are used")
+      ->check(CLI::IsMember({"low", "medium", "high"}))
+      ->capture_default_str();
+}
+
+void AddMaskArguments(CLI::App* command, SequenceArguments* arguments) {
+  CLI::Option* const mask = command->add_option(
+      "--mask", arguments->mask,
+      "Image whose pixels that are not zero are left out of all images (a robot's own arm), or "
+      "folder with one for each image, by name (people found by a detector)");
+  command
+      ->add_flag("--mask-zero", arguments->mask_zero,
+                 "Leave out pixels of the mask that are zero instead, as in masks of COLMAP")
+      ->needs(mask);
 }
 
 RgbdDecoder OpenDecoder(const SequenceArguments& arguments, const Configuration& configuration,
@@ -81,7 +115,13 @@ RgbdDecoder OpenDecoder(const SequenceArguments& arguments, const Configuration&
   SequenceIndex index = OpenSource(arguments);
   Calibration calibration = ResolveCalibration(configuration.camera, arguments.camera, &index);
   index.clipped_depth = FindClippedDepth(index);
+  index.masks = OpenMasks(arguments, index);
   return {std::move(index), std::move(calibration)};
+}
+
+void UseDepthSensorOf(const SequenceIndex& index, OdometryOptions* options) {
+  DepthSensor& sensor = options->features.depth_sensor;
+  if (sensor == DepthSensor::kAuto) sensor = index.depth_sensor;
 }
 
 std::string SequenceName(const std::string& directory) {

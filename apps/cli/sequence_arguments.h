@@ -18,16 +18,22 @@ struct SequenceArguments {
   std::string directory;  ///< or a bag of ROS, a recording of OpenNI2, "openni2:" and a device
   std::string format = "auto";
   BagTopics topics;
-  std::string camera;  ///< preset; may be empty
+  std::string camera;                     ///< preset; may be empty
+  std::string min_confidence = "medium";  ///< of depths of telephones
+  std::string mask;                       ///< file or folder; empty: none
+  bool mask_zero = false;                 ///< zero is left out, instead of what is not zero
 };
 
 /// Declares SEQUENCE and the arguments of AddLayoutArguments(). SEQUENCE, which is returned, is
 /// optional unless the caller requires it.
 CLI::Option* AddSequenceArguments(CLI::App* command, SequenceArguments* arguments);
 
-/// Declares --format, --camera, --color-topic and --depth-topic only, for commands with several
-/// sequences.
+/// Declares --format, --camera, --color-topic, --depth-topic and --min-confidence only, for
+/// commands with several sequences.
 void AddLayoutArguments(CLI::App* command, SequenceArguments* arguments);
+
+/// Declares --mask and --mask-zero, for commands that use the images.
+void AddMaskArguments(CLI::App* command, SequenceArguments* arguments);
 
 enum class LiveCameras { kAllowed, kRefused };
 
@@ -35,6 +41,9 @@ enum class LiveCameras { kAllowed, kRefused };
 /// camera and these are refused.
 RgbdDecoder OpenDecoder(const SequenceArguments& arguments, const Configuration& configuration,
                         LiveCameras live_cameras = LiveCameras::kRefused);
+
+/// Takes the depth sensor that the sequence names, unless the options give one.
+void UseDepthSensorOf(const SequenceIndex& index, OdometryOptions* options);
 
 /// Whether the sequence is a live camera.
 bool IsLiveCamera(const std::string& directory);

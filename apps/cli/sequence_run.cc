@@ -233,7 +233,7 @@ SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configu
     const std::vector<TimedPose> poses = TrajectoryOf(run.result);
     context.error = EvaluateTrajectory(context.sequence.ground_truth, poses);
     for (const std::string& warning : context.error->warnings) {
-      PrintWarning("ground truth: " + warning);
+      PrintWarning(TruthName(context.sequence) + ": " + warning);
     }
     context.segment_errors = EvaluateSegments(context.sequence.ground_truth, poses);
   }

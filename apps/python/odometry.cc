@@ -111,13 +111,15 @@ class PyOdometry {
   }
 
   FrameResult Process(const py::object& timestamp, const py::object& gray, const py::object& depth,
-                      const py::object& depth_scale, const py::object& depth_delay) {
+                      const py::object& depth_scale, const py::object& depth_delay,
+                      const py::object& mask) {
     RgbdImage image;
     image.id = NextId();
     image.timestamp = TimeArgument(timestamp, "timestamp");
     image.depth_delay = NumberArgument(depth_delay, "depth_delay");
     image.gray = GrayArgument(gray, "gray");
     image.depth = DepthArgument(depth, depth_scale, "depth");
+    if (!mask.is_none()) image.mask = GrayArgument(mask, "mask");
     if (!depth_scale.is_none() && image.id < kNumChecked) CheckByteOrder(image.depth, depth_scale);
     return Alone([&] { return Reported(odometry_->Process(image)); });
   }
@@ -307,11 +309,13 @@ void BindOdometry(py::module_* module) {
            "Lens. Raises ValueError on options or a camera that are not valid.")
       .def("process", &PyOdometry::Process, py::arg("timestamp"), py::arg("gray"), py::arg("depth"),
            py::kw_only(), py::arg("depth_scale") = py::none(), py::arg("depth_delay") = 0.0,
+           py::arg("mask") = py::none(),
            "Tracks one image. timestamp: seconds, ascending. gray: uint8 (height, width), or RGB "
            "(height, width, 3). depth: float32 in metres, or uint16 with depth_scale units per "
            "metre, 10 to 100000; 0 or masked: not measured. Arrays must be C-contiguous; those in "
            "the byte order of the machine are not copied. depth_delay: seconds from the colour "
-           "image to the depth image. Raises ValueError on "
+           "image to the depth image. mask: uint8 (height, width), not 0: left out, None: all "
+           "pixels are used. Raises ValueError on "
            "arrays that do not fit, which leave no frame. Exceptions of callbacks and of local "
            "mapping come after the frame is complete: it is in `frames`.")
       .def("drop", &PyOdometry::Drop, py::arg("timestamp"), py::arg("status") = "dropped",

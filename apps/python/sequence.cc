@@ -13,8 +13,10 @@
 #include "apps/python/bindings.h"
 #include "msc_vo/config/options_file.h"
 #include "msc_vo/datasets/clipped_depth_search.h"
+#include "msc_vo/datasets/image_masks.h"
 #include "msc_vo/datasets/rgbd_decoder.h"
 #include "msc_vo/datasets/sequence_calibration.h"
+#include "msc_vo/phone_recordings/folder_sequence.h"
 
 namespace msc_vo {
 
@@ -23,12 +25,17 @@ namespace py = pybind11;
 namespace {
 
 RgbdDecoder Open(const py::object& directory, const std::string& format, const std::string& camera,
-                 const py::object& config) {
+                 const py::object& config, const py::object& mask, bool mask_zero) {
   Configuration configuration;
   if (!config.is_none()) ReadConfiguration(PathArgument(config), &configuration);
-  SequenceIndex index = OpenSequence(PathArgument(directory), format);
+  SequenceIndex index = OpenFolder(PathArgument(directory), format, PhoneOptions());
   Calibration calibration = ResolveCalibration(configuration.camera, camera, &index);
   index.clipped_depth = FindClippedDepth(index);
+  if (!mask.is_none()) {
+    index.masks = std::make_shared<ImageMasks>(
+        PathArgument(mask), mask_zero ? ImageMasks::LeftOut::kZero : ImageMasks::LeftOut::kNonZero,
+        index.entries);
+  }
   return {std::move(index), std::move(calibration)};
 }
 
@@ -51,6 +58,13 @@ py::array DepthOf(const py::object& self) {
                    {static_cast<py::ssize_t>(depth.step[0]), sizeof(float)}, self);
 }
 
+py::object MaskOf(const py::object& self) {
+  const cv::Mat& mask = self.cast<const RgbdImage&>().mask;
+  if (mask.empty()) return py::none();
+  return ArrayView(mask.ptr<uint8_t>(), {mask.rows, mask.cols},
+                   {static_cast<py::ssize_t>(mask.step[0]), 1}, self);
+}
+
 py::array_t<double> StampsOf(const RgbdDecoder& sequence) {
   py::array_t<double> stamps(sequence.size());
   for (int i = 0; i < sequence.size(); ++i) {
@@ -69,7 +83,10 @@ void BindImage(py::module_* module) {
       .def_property_readonly("gray", &GrayOf, "(height, width) uint8, read-only, not a copy.")
       .def_property_readonly("depth", &DepthOf,
                              "(height, width) float32, metres, 0: not measured; read-only, not a "
-                             "copy.");
+                             "copy.")
+      .def_property_readonly("mask", &MaskOf,
+                             "(height, width) uint8, not 0: left out; read-only, not a copy. None: "
+                             "all pixels are used.");
 }
 
 }  // namespace
@@ -84,9 +101,10 @@ void BindSequence(py::module_* module) {
                           "sequence[i] decodes image i and raises UnreadableImage if it is missing "
                           "or damaged.")
       .def(py::init(&Open), py::arg("directory"), py::arg("format") = "auto",
-           py::arg("camera") = "", py::arg("config") = py::none(),
-           "format, camera, config: as --format, --camera and --config of `msc_vo replay`. Raises "
-           "RuntimeError naming file, line and fix.")
+           py::arg("camera") = "", py::arg("config") = py::none(), py::arg("mask") = py::none(),
+           py::arg("mask_zero") = false,
+           "format, camera, config, mask, mask_zero: as --format, --camera, --config, --mask and "
+           "--mask-zero of `msc_vo replay`. Raises RuntimeError naming file, line and fix.")
       .def("__len__", &RgbdDecoder::size)
       .def("__getitem__", &ImageAt, py::arg("index"))
       .def("__iter__",

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
+#include <algorithm>
+
 #include <opencv2/videoio.hpp>
 
 #include "apps/video/video_file.h"
@@ -33,10 +35,40 @@ class OpenCvVideo : public VideoFile {
   cv::VideoWriter writer_;
 };
 
+class OpenCvVideoReader : public VideoReader {
+ public:
+  bool Open(const std::string& path) override {
+    if (!capture_.open(path, cv::CAP_FFMPEG)) return false;
+    // Intrinsics and depth images do not follow the rotation.
+    return capture_.set(cv::CAP_PROP_ORIENTATION_AUTO, 0.0);
+  }
+
+  int NumImagesInHeader() const override {
+    return std::max(0, cvRound(capture_.get(cv::CAP_PROP_FRAME_COUNT)));
+  }
+
+  double FrameRate() const override { return capture_.get(cv::CAP_PROP_FPS); }
+
+  bool Skip() override { return capture_.grab(); }
+
+  cv::Mat Image() override {
+    cv::Mat image;
+    capture_.retrieve(image);
+    return image;
+  }
+
+ private:
+  cv::VideoCapture capture_;
+};
+
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) VideoFile* msc_vo_make_video_file() {
   return new OpenCvVideo;
+}
+
+extern "C" __attribute__((visibility("default"))) VideoReader* msc_vo_make_video_reader() {
+  return new OpenCvVideoReader;
 }
 
 }  // namespace msc_vo

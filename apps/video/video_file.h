@@ -7,6 +7,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "msc_vo/phone_recordings/video_reader.h"
+
 namespace msc_vo {
 
 /// A video file that is written. The one implementation is a module that is loaded for runs with a
@@ -30,5 +32,8 @@ class VideoFile {
 /// The function of the module that makes one; the caller owns the result.
 using MakeVideoFile = VideoFile* (*)();
 inline constexpr char kMakeVideoFile[] = "msc_vo_make_video_file";
+/// The same for reading.
+using MakeVideoReaderOfModule = VideoReader* (*)();
+inline constexpr char kMakeVideoReader[] = "msc_vo_make_video_reader";
 
 }  // namespace msc_vo

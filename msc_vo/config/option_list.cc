@@ -94,6 +94,9 @@ void ListCamera(CameraSettings* camera, OptionLister* list) {
       "max_width", &camera->max_width, Range{16.0, 16384.0, "pixels"},
       "Width to which wider colour images are reduced; if not set, 1280 for those with a depth "
       "camera or smaller depth images.");
+  list->Add("float_depth_scale", &camera->float_depth_scale, Range{1e-3, 1e6, "per metre"},
+            "Units per metre of depth images of floating-point numbers (TIFF, EXR); if not set, 1: "
+            "metres.");
   list->Section("depth_camera", &camera->depth_camera, ListDepthCamera);
 }
 

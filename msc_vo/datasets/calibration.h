@@ -81,6 +81,8 @@ struct CameraSettings {
   LensSettings lens;
   std::optional<double> field_of_view;  ///< degrees, of the undistorted images
   std::optional<int> max_width;         ///< of colour images, pixels, see FitToImageSizes()
+  /// Units per metre of depth images of floating-point numbers; not set: metres.
+  std::optional<double> float_depth_scale;
   DepthCameraSettings depth_camera;
   std::string origin;  ///< the file, for messages
 

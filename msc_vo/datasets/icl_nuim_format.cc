@@ -64,6 +64,6 @@ SequenceIndex Read(const std::string& directory) {
 const SequenceFormat kIclNuimFormat = {
     "icl-nuim",
     "depth-first associations.txt with frame numbers, or rgb/, depth/ and *.gt.freiburg",
-    Recognises, Read};
+    "renderer of ICL-NUIM", Recognises, Read};
 
 }  // namespace msc_vo

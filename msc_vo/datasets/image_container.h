@@ -26,6 +26,13 @@ class ImageContainer {
   /// depth_index, and throw std::runtime_error if it is damaged.
   virtual StoredImage ReadColor(int index) const = 0;
   virtual StoredImage ReadDepth(int index) const = 0;
+
+  /// Settings of the source that decide on the images, "least confidence medium"; empty: none.
+  virtual std::string Settings() const { return ""; }
+
+  /// Returns a mask of colour image `index` as recorded for the image that ReadColor() returns,
+  /// which has the same size and may be resampled. CV_8UC1.
+  virtual cv::Mat AlignMask(int /*index*/, const cv::Mat& mask) const { return mask; }
 };
 
 }  // namespace msc_vo

@@ -17,12 +17,6 @@ bool IsOfSize(const PinholeCamera& camera, const ImageSize& size) {
   return camera.width == size.width && camera.height == size.height;
 }
 
-// Whether one is the other scaled, up to the rounding of a side to whole pixels.
-bool HaveSameShape(const ImageSize& a, const ImageSize& b) {
-  const double height = static_cast<double>(a.height) * b.width / a.width;
-  return std::abs(height - b.height) <= 1.0;
-}
-
 ImageSize ReducedTo(int max_width, const ImageSize& size) {
   if (size.width <= max_width) return size;
   const double height = static_cast<double>(size.height) * max_width / size.width;
@@ -39,6 +33,11 @@ DepthCamera CameraAtSameView(const PinholeCamera& camera, const LensDistortion& 
 }
 
 }  // namespace
+
+bool HaveSameShape(const ImageSize& a, const ImageSize& b) {
+  const double height = static_cast<double>(a.height) * b.width / a.width;
+  return std::abs(height - b.height) <= 1.0;
+}
 
 PinholeCamera ScaledCamera(const PinholeCamera& camera, const ImageSize& size) {
   const double sx = static_cast<double>(size.width) / camera.width;
@@ -62,7 +61,7 @@ void FitToImageSizes(const ImageSize& color, const ImageSize& depth, std::option
     if (!HaveSameShape(color, depth)) return;
     calibration->depth_camera =
         CameraAtSameView(ScaledCamera(recorded, depth), calibration->distortion);
-    if (differ) {
+    if (differ && !index->is_same_view) {
       index->warnings.push_back(
           FormatText("depth images of %dx%d are taken for the view of the colour images of %dx%d; "
                      "describe the "

@@ -21,6 +21,9 @@ constexpr int kDefaultMaxWidth = 1280;
 /// coordinates, so the coordinate plus one half is scaled.
 PinholeCamera ScaledCamera(const PinholeCamera& camera, const ImageSize& size);
 
+/// Whether one image size is the other scaled, up to the rounding of a side to whole pixels.
+bool HaveSameShape(const ImageSize& a, const ImageSize& b);
+
 /// Fits a calibration to colour and depth images of these sizes; it is that of the recorded images,
 /// SetUndistorted() must follow.
 ///
@@ -31,7 +34,8 @@ PinholeCamera ScaledCamera(const PinholeCamera& camera, const ImageSize& size);
 /// - Colour images wider than `max_width`: they are reduced to it. If it is not set, images with a
 ///   depth camera are reduced to kDefaultMaxWidth.
 ///
-/// Both add a sentence to `index->warnings`.
+/// Both add a sentence to `index->warnings`; the first one unless the source says that the views
+/// are the same.
 void FitToImageSizes(const ImageSize& color, const ImageSize& depth, std::optional<int> max_width,
                      SequenceIndex* index, Calibration* calibration);
 

@@ -61,7 +61,8 @@ SequenceIndex Read(const std::string& directory) {
 
 }  // namespace
 
-const SequenceFormat kReplicaFormat = {
-    "replica", "results/frameXXXXXX.jpg, results/depthXXXXXX.png, traj.txt", Recognises, Read};
+const SequenceFormat kReplicaFormat = {"replica",
+                                       "results/frameXXXXXX.jpg, results/depthXXXXXX.png, traj.txt",
+                                       "renderer of Replica for NICE-SLAM", Recognises, Read};
 
 }  // namespace msc_vo

@@ -55,6 +55,6 @@ SequenceIndex Read(const std::string& directory) {
 }  // namespace
 
 const SequenceFormat kRgbDepthFormat = {
-    "rgb-depth", "rgb/ and depth/ with images, paired by name or by order", Recognises, Read};
+    "rgb-depth", "rgb/ and depth/ with images, paired by name or by order", "", Recognises, Read};
 
 }  // namespace msc_vo

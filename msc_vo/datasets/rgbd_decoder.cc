@@ -3,17 +3,22 @@
 
 #include "msc_vo/datasets/rgbd_decoder.h"
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "msc_vo/datasets/clipped_depth_search.h"
+#include "msc_vo/datasets/image_masks.h"
 #include "msc_vo/image_files/image_file.h"
+#include "msc_vo/sensor/image_mask.h"
 #include "msc_vo/text/files.h"
+#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 
@@ -31,6 +36,8 @@ std::string SizeText(int width, int height) {
 }
 
 bool IsJpeg(const std::string& bytes) { return bytes.compare(0, 2, "\xFF\xD8") == 0; }
+
+bool IsPng(const std::string& bytes) { return bytes.compare(0, 4, "\x89PNG") == 0; }
 
 std::string ReadImageBytes(const std::string& path, const SequenceEntry& entry) {
   const std::string problem = FileProblem(path, kMaxImageBytes);
@@ -90,6 +97,25 @@ cv::Mat ToMetres(const cv::Mat& raw, double depth_scale, const DepthLimits& limi
   return metres;
 }
 
+// The median of the pixels that are measured, of every 7th in both directions; 0: there is none.
+double MedianMeasured(const cv::Mat& metres) {
+  constexpr int kStep = 7;
+  std::vector<float> values;
+  for (int y = 0; y < metres.rows; y += kStep) {
+    for (int x = 0; x < metres.cols; x += kStep) {
+      const float z = metres.at<float>(y, x);
+      if (z > 0.0f && z <= std::numeric_limits<float>::max()) values.push_back(z);
+    }
+  }
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// The largest median depth that is taken for metres, as in the finding depth.scale.
+constexpr double kMaxMedianDepth = 40.0;
+
 }  // namespace
 
 RgbdDecoder::RgbdDecoder(SequenceIndex index, Calibration calibration)
@@ -141,7 +167,7 @@ StoredRgbd RgbdDecoder::ReadStored(int i) const {
 cv::Mat RgbdDecoder::DecodeRawDepth(int i) const {
   const SequenceEntry& entry = index_.entries.at(i);
   try {
-    cv::Mat depth = DecodeStored(ReadStoredDepth(i), entry.depth_path, entry).clone();
+    cv::Mat depth = DecodeDepth(ReadStoredDepth(i), entry).clone();
     CheckDepthType(depth, entry);
     if (index_.invalid_depth != 0) depth.setTo(0, depth == index_.invalid_depth);
     return depth;
@@ -164,10 +190,12 @@ StoredRgbd RgbdDecoder::ReadForExport(int i) const {
       stored.color = {"", color};
     }
     const DepthLimits& limits = index_.clipped_depth.limits;
-    if (index_.invalid_depth != 0 || limits.HasNearest() || limits.HasFarthest()) {
-      cv::Mat depth = DecodeStored(stored.depth, entry.depth_path, entry).clone();
+    const bool is_changed =
+        index_.invalid_depth != 0 || limits.HasNearest() || limits.HasFarthest();
+    if (is_changed || !IsPng(stored.depth.bytes)) {
+      cv::Mat depth = DecodeDepth(stored.depth, entry).clone();
       if (index_.invalid_depth != 0) depth.setTo(0, depth == index_.invalid_depth);
-      limits.Apply(&depth);
+      if (is_changed) limits.Apply(&depth);
       stored.depth = {"", depth};
     }
   } catch (const UnreadableImage&) {
@@ -190,7 +218,7 @@ RgbdImage RgbdDecoder::Convert(const CameraImage& image, int id) const {
 RgbdImage RgbdDecoder::DecodePair(int i, const StoredRgbd& stored) const {
   const SequenceEntry& entry = index_.entries.at(i);
   const cv::Mat color = DecodeStored(stored.color, entry.color_path, entry);
-  return MakeImage(i, entry, color, DecodeStored(stored.depth, entry.depth_path, entry));
+  return MakeImage(i, entry, color, DecodeDepth(stored.depth, entry));
 }
 
 RgbdImage RgbdDecoder::MakeImage(int i, const SequenceEntry& entry, cv::Mat color,
@@ -206,6 +234,7 @@ RgbdImage RgbdDecoder::MakeImage(int i, const SequenceEntry& entry, cv::Mat colo
   CheckDepthType(depth, entry);
   CheckDepthSize(depth, entry);
   const cv::Size size(calibration_.camera.width, calibration_.camera.height);
+  const ImageSize recorded_size{color.cols, color.rows};
   if (index_.scale_color && color.cols > size.width && color.rows > size.height) {
     cv::resize(color, color, size, 0.0, 0.0, cv::INTER_AREA);
   }
@@ -220,15 +249,36 @@ RgbdImage RgbdDecoder::MakeImage(int i, const SequenceEntry& entry, cv::Mat colo
     image.recorded_depth = image.depth;
     image.depth = registration_->Register(image.recorded_depth);
   }
+  if (index_.masks) {
+    cv::Mat mask = index_.masks->Read(entry.color_path, recorded_size);
+    if (index_.container) mask = index_.container->AlignMask(entry.color_index, mask);
+    cv::resize(mask, image.mask, image.gray.size(), 0.0, 0.0, cv::INTER_NEAREST);
+    RemoveMaskedDepth(&image);
+  }
   return image;
 }
 
+cv::Mat RgbdDecoder::DecodeDepth(const StoredImage& stored, const SequenceEntry& entry) const {
+  cv::Mat depth = DecodeStored(stored, entry.depth_path, entry);
+  if (depth.depth() != CV_32F && depth.depth() != CV_64F) return depth;
+  depth.convertTo(depth, CV_32F, 1.0 / index_.float_depth_scale);
+  return depth;
+}
+
 void RgbdDecoder::CheckDepthType(const cv::Mat& depth, const SequenceEntry& entry) const {
-  const bool is_metres = index_.container && depth.type() == CV_32FC1;
-  if (depth.type() == CV_16UC1 || is_metres) return;
+  if (depth.type() == CV_16UC1) return;
+  if (depth.type() == CV_32FC1) {
+    const double median = MedianMeasured(depth);
+    if (median <= kMaxMedianDepth) return;
+    Fail(entry.depth_path, entry,
+         "has floating-point numbers with a median of " + FormatNumber(median) +
+             " metres, beyond any RGB-D camera; give their units per metre, "
+             "--set camera.float_depth_scale=1000 for millimetres");
+  }
   Fail(entry.depth_path, entry,
        "has " + TypeText(depth) +
-           "; depth images need 1 channel of 16 bits (a visualisation of the depth does not "
+           "; depth images need 1 channel of 16 bits or of floating-point numbers (a visualisation "
+           "of the depth does not "
            "contain the measurements)");
 }
 

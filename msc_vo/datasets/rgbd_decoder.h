@@ -53,7 +53,8 @@ class RgbdDecoder {
 
   /// Decodes entry i, 0 <= i < size(): converts colour to grey and depth to metres (0: no
   /// measurement, which includes clipped depth), scales colour down to the size of the camera if
-  /// the index requires it, and registers depth to colour if the calibration has a depth camera.
+  /// the index requires it, registers depth to colour if the calibration has a depth camera, and
+  /// leaves out what the masks of the index leave out.
   /// The id of the image is i. Throws UnreadableImage if a file is missing, damaged, of another
   /// size than the camera, or of the wrong bit depth.
   RgbdImage Decode(int i) const;
@@ -75,6 +76,7 @@ class RgbdDecoder {
  private:
   StoredImage ReadStoredDepth(int i) const;
   StoredRgbd ReadStored(int i) const;
+  cv::Mat DecodeDepth(const StoredImage& stored, const SequenceEntry& entry) const;
   RgbdImage DecodePair(int i, const StoredRgbd& stored) const;
   RgbdImage MakeImage(int i, const SequenceEntry& entry, cv::Mat color, const cv::Mat& depth) const;
   void CheckDepthType(const cv::Mat& depth, const SequenceEntry& entry) const;

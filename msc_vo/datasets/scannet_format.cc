@@ -76,6 +76,7 @@ SequenceIndex Read(const std::string& directory) {
 }  // namespace
 
 const SequenceFormat kScanNetFormat = {
-    "scannet", "color/, depth/, pose/, intrinsic/ as exported from .sens files", Recognises, Read};
+    "scannet", "color/, depth/, pose/, intrinsic/ as exported from .sens files",
+    "ScanNet, exported with its SensReader", Recognises, Read};
 
 }  // namespace msc_vo

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <set>
 #include <stdexcept>
 
@@ -23,23 +24,32 @@ constexpr const SequenceFormat* kSequenceFormats[] = {&kSevenScenesFormat, &kRep
                                                       &kScanNetFormat,     &kIclNuimFormat,
                                                       &kTumFormat,         &kRgbDepthFormat};
 
-const SequenceFormat* Recognise(const std::string& directory) {
-  for (const SequenceFormat* format : kSequenceFormats) {
+using Formats = std::vector<const SequenceFormat*>;
+
+Formats AllFormats(const std::vector<SequenceFormat>& further) {
+  Formats formats;
+  for (const SequenceFormat& format : further) formats.push_back(&format);
+  formats.insert(formats.end(), std::begin(kSequenceFormats), std::end(kSequenceFormats));
+  return formats;
+}
+
+const SequenceFormat* Recognise(const Formats& formats, const std::string& directory) {
+  for (const SequenceFormat* format : formats) {
     if (format->recognises(directory)) return format;
   }
   return nullptr;
 }
 
-[[noreturn]] void FailUnrecognised(const std::string& directory) {
+[[noreturn]] void FailUnrecognised(const Formats& formats, const std::string& directory) {
   std::string message = directory + ": no RGB-D sequence found here. Known layouts:";
-  for (const SequenceFormat* format : kSequenceFormats) {
+  for (const SequenceFormat* format : formats) {
     message += std::string("\n  ") + format->name + ": " + format->description;
   }
   // Giving the parent folder of a sequence is the most frequent mistake.
   std::vector<std::string> entries = ListFolder(directory);
   std::sort(entries.begin(), entries.end());
-  const auto child = std::find_if(entries.begin(), entries.end(), [](const std::string& entry) {
-    return FolderProblem(entry).empty() && Recognise(entry);
+  const auto child = std::find_if(entries.begin(), entries.end(), [&](const std::string& entry) {
+    return FolderProblem(entry).empty() && Recognise(formats, entry);
   });
   const auto file = std::find_if(entries.begin(), entries.end(), IsSequenceFile);
   if (child != entries.end()) {
@@ -50,9 +60,9 @@ const SequenceFormat* Recognise(const std::string& directory) {
   throw std::runtime_error(message);
 }
 
-const SequenceFormat& FormatByName(const std::string& name) {
+const SequenceFormat& FormatByName(const Formats& formats, const std::string& name) {
   std::string names;
-  for (const SequenceFormat* format : kSequenceFormats) {
+  for (const SequenceFormat* format : formats) {
     if (name == format->name) return *format;
     names += std::string(", ") + format->name;
   }
@@ -73,9 +83,16 @@ std::vector<std::string> SequenceFormatNames() {
   return names;
 }
 
-SequenceIndex OpenSequence(const std::string& directory, const std::string& format_name) {
+SequenceIndex OpenSequence(const std::string& directory, const std::string& format) {
+  return OpenSequence(directory, format, {});
+}
+
+SequenceIndex OpenSequence(const std::string& directory, const std::string& format_name,
+                           const std::vector<SequenceFormat>& further) {
+  const Formats formats = AllFormats(further);
   const std::string folder = WithoutTrailingSlash(directory);
-  const SequenceFormat* format = format_name == "auto" ? nullptr : &FormatByName(format_name);
+  const SequenceFormat* format =
+      format_name == "auto" ? nullptr : &FormatByName(formats, format_name);
   const std::string problem = FolderProblem(folder);
   if (!problem.empty()) {
     const std::string file = DescribeFile(folder);
@@ -83,10 +100,11 @@ SequenceIndex OpenSequence(const std::string& directory, const std::string& form
                                               ? ": " + problem + "; give the folder of the sequence"
                                               : " " + file));
   }
-  if (!format) format = Recognise(folder);
-  if (!format) FailUnrecognised(folder);
+  if (!format) format = Recognise(formats, folder);
+  if (!format) FailUnrecognised(formats, folder);
   SequenceIndex index = format->read(folder);
   index.format = format->name;
+  index.recorder = format->recorder;
   index.directory = folder;
   OrderEntries(&index);
   RequireMostImages(index, folder + " (read as " + format->name + ": " + format->description + ")");
@@ -127,6 +145,14 @@ void RequireMostImages(const SequenceIndex& index, const std::string& source) {
   throw std::runtime_error(message);
 }
 
+std::string TruthName(const SequenceIndex& index) {
+  return index.reference.empty() ? "ground truth" : "reference (" + index.reference + ")";
+}
+
+const char* TruthFileName(const SequenceIndex& index) {
+  return index.reference.empty() ? "groundtruth.txt" : "reference.txt";
+}
+
 std::vector<std::string> InputFolders(const SequenceIndex& index) {
   std::set<std::string> folders = {index.directory};
   if (index.container) return {folders.begin(), folders.end()};
@@ -145,12 +171,12 @@ void RefuseToOverwriteSequence(const SequenceIndex& index, const std::string& fi
   const auto is_folder = [&](const std::string& path) {
     return fs::equivalent(folder, path, error);
   };
-  if (index.container) {
-    return RefuseToOverwrite(
-        IsFolder(index.directory) ? ListFolder(index.directory) : std::vector{index.directory},
-        file);
-  }
   std::vector<std::string> inputs;
+  if (index.container) {
+    inputs = {index.directory};
+    if (IsFolder(index.directory)) inputs = ListFolder(index.directory);
+    return RefuseToOverwrite(inputs, file);
+  }
   if (index.calibration) inputs.push_back(index.calibration->origin);
   for (const SequenceEntry& entry : index.entries) {
     inputs.insert(inputs.end(), {entry.color_path, entry.depth_path});

@@ -12,11 +12,14 @@
 #include "msc_vo/datasets/time_unit.h"
 #include "msc_vo/geometry/timed_pose.h"
 #include "msc_vo/sensor/depth_limits.h"
+#include "msc_vo/sensor/depth_sensor.h"
 
 namespace msc_vo {
 
 class ImageContainer;
+class ImageMasks;
 class RgbdCamera;
+struct SequenceFormat;
 
 /// The files of one RGB-D image of a sequence.
 struct SequenceEntry {
@@ -43,6 +46,7 @@ struct ClippedDepth {
 /// The contents of a sequence folder or of another source of images; images are not decoded.
 struct SequenceIndex {
   std::string format;                  ///< name of the layout, "tum"
+  std::string recorder;                ///< what recorded it, as far as known: "Stray Scanner"
   std::string directory;               ///< without trailing slash; or the file of a recording
   std::vector<SequenceEntry> entries;  ///< in order of time, stamps unique
   size_t num_listed = 0;  ///< images that the source names, of the stream with fewer of them
@@ -53,14 +57,25 @@ struct SequenceIndex {
   int invalid_depth = 0;       ///< raw depth value for "no measurement", in addition to 0
   ClippedDepth clipped_depth;  ///< see FindClippedDepth()
   bool scale_color = false;    ///< colour is larger than depth and is scaled down to its size
+  /// Depth shows the view of the colour images, whatever its size.
+  bool is_same_view = false;
+  /// What measured depth; kAuto: the source does not tell it.
+  DepthSensor depth_sensor = DepthSensor::kAuto;
   /// The images, if they are in one file; null: every image is a file.
   std::shared_ptr<const ImageContainer> container;
+  /// What is left out of the images; null: nothing.
+  std::shared_ptr<const ImageMasks> masks;
   /// A live camera. There are no entries then.
   std::shared_ptr<RgbdCamera> camera;
   /// Raw depth units per metre that the source defines. They replace those of a camera preset.
   std::optional<double> depth_scale;
+  /// Units per metre of depth images of floating-point numbers.
+  double float_depth_scale = 1.0;
   std::vector<TimedPose> ground_truth;  ///< in order of time; empty: there is none
-  std::vector<std::string> warnings;    ///< for the user, one sentence each
+  /// Empty if `ground_truth` is that. Otherwise the poses are the estimate of another program,
+  /// which this names, "ARKit": a reference to compare with, whose errors are not known.
+  std::string reference;
+  std::vector<std::string> warnings;  ///< for the user, one sentence each
 };
 
 /// Returns the names that OpenSequence() accepts as `format`, except "auto".
@@ -72,6 +87,9 @@ std::vector<std::string> SequenceFormatNames();
 /// the ground truth is malformed, or fewer than half of the images can be used;
 /// std::invalid_argument on an unknown format.
 SequenceIndex OpenSequence(const std::string& directory, const std::string& format = "auto");
+/// The same with further layouts, which are looked for first.
+SequenceIndex OpenSequence(const std::string& directory, const std::string& format,
+                           const std::vector<SequenceFormat>& further);
 
 /// Sorts the entries by time and removes those with the stamp of another one, with warnings.
 void OrderEntries(SequenceIndex* index);
@@ -79,6 +97,11 @@ void OrderEntries(SequenceIndex* index);
 /// Throws std::runtime_error that gives the warnings as reasons if no entry is left, or fewer than
 /// half of the listed images. `source` says where they were looked for, "x.bag (/color, /depth)".
 void RequireMostImages(const SequenceIndex& index, const std::string& source);
+
+/// What SequenceIndex::ground_truth is called, "ground truth" or "reference (ARKit)", and the name
+/// of the file that it is written to, groundtruth.txt or reference.txt.
+std::string TruthName(const SequenceIndex& index);
+const char* TruthFileName(const SequenceIndex& index);
 
 /// Returns the folder of the sequence and the folders of its images, or the file that holds them.
 std::vector<std::string> InputFolders(const SequenceIndex& index);

@@ -234,6 +234,7 @@ Calibration ResolveCalibration(const CameraSettings& settings, const std::string
   } else if (!settings.IsEmpty()) {
     calibration.origin += ", " + settings.origin;
   }
+  index->float_depth_scale = settings.float_depth_scale.value_or(1.0);
   FitToImages(settings.max_width, index, &calibration);
   calibration.SetUndistorted();
   std::string error;

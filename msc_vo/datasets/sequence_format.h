@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "msc_vo/datasets/sequence.h"
@@ -13,10 +14,11 @@ namespace msc_vo {
 struct SequenceFormat {
   const char* name;         ///< for --format
   const char* description;  ///< expected files, for messages
-  bool (*recognises)(const std::string& directory);
-  /// Fills all fields except `format` and `directory`. OpenSequence() sorts the entries and removes
-  /// repeated stamps.
-  SequenceIndex (*read)(const std::string& directory);
+  const char* recorder;     ///< what records or publishes sequences in this layout, for messages
+  std::function<bool(const std::string& directory)> recognises;
+  /// Fills all fields except `format`, `recorder` and `directory`. OpenSequence() sorts the entries
+  /// and removes repeated stamps.
+  std::function<SequenceIndex(const std::string& directory)> read;
 };
 
 extern const SequenceFormat kSevenScenesFormat;

@@ -66,6 +66,6 @@ SequenceIndex Read(const std::string& directory) {
 
 const SequenceFormat kSevenScenesFormat = {
     "7-scenes", "frame-XXXXXX.color.png (or .jpg), .depth.png, .pose.txt (also 3DMatch)",
-    Recognises, Read};
+    "tools of 7-Scenes or 3DMatch", Recognises, Read};
 
 }  // namespace msc_vo

@@ -36,6 +36,7 @@ SequenceIndex Read(const std::string& directory) {
 }  // namespace
 
 const SequenceFormat kTumFormat = {
-    "tum", "rgb.txt and depth.txt with 'time path' rows, or associations.txt", Recognises, Read};
+    "tum", "rgb.txt and depth.txt with 'time path' rows, or associations.txt",
+    "tools of the TUM RGB-D benchmark, or msc_vo", Recognises, Read};
 
 }  // namespace msc_vo

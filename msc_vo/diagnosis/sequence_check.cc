@@ -169,6 +169,21 @@ void AddMotionFindings(const RgbdDecoder& decoder, const OdometryOptions& option
   AddNoiseFindings(track, findings);
 }
 
+// Findings about poses that are no ground truth do not call them so.
+void NameReference(const SequenceIndex& index, Findings* findings) {
+  constexpr char kTruth[] = "ground truth";
+  if (index.reference.empty()) return;
+  for (Finding& finding : *findings) {
+    for (std::string* text : {&finding.text, &finding.fix}) {
+      for (size_t at = text->find(kTruth); at != std::string::npos; at = text->find(kTruth, at)) {
+        if (finding.check == "sequence") break;  // which says that they are none
+        text->replace(at, sizeof(kTruth) - 1, TruthName(index));
+        at += TruthName(index).size();
+      }
+    }
+  }
+}
+
 bool HoldsNoDepth(const Findings& findings) {
   return HasError(findings, kByteOrderCheck) || HasError(findings, DepthCurveTest::kCheck);
 }
@@ -189,6 +204,9 @@ Findings CheckSequence(const RgbdDecoder& decoder, const SequenceCheckOptions& o
     findings.push_back(Warning("sequence", warning, ""));
   }
   AddFileFindings(index, &findings);
+  if (!index.recorder.empty()) {
+    findings.push_back(Good("sequence.recorder", "recorded with: " + index.recorder));
+  }
   AddStampFindings(index, &findings);
   AddCameraFindings(calibration, index.format, &findings);
   const int count = std::min(std::max(options.max_images, 1), decoder.size());
@@ -211,6 +229,7 @@ Findings CheckSequence(const RgbdDecoder& decoder, const SequenceCheckOptions& o
                             "calibration against motion: not tested; to test it, run msc_vo check "
                             "--deep"));
   }
+  NameReference(index, &findings);
   return findings;
 }
 
@@ -226,6 +245,7 @@ Findings CheckSequenceQuickly(const RgbdDecoder& decoder) {
   DecideCurve(decoder, &curve);
   AddSampleFindings(sample, curve, calibration, &findings);
   AddGroundTruthStampFindings(index, &findings);
+  NameReference(index, &findings);
   findings.erase(
       std::remove_if(findings.begin(), findings.end(),
                      [](const Finding& finding) { return finding.severity == Severity::kGood; }),

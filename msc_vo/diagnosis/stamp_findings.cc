@@ -112,8 +112,9 @@ void AddGroundTruthStampFindings(const SequenceIndex& index, Findings* findings)
   const size_t num_matched = AssociateStamps(truth_stamps, image_stamps, max_difference).size();
   const double ratio = static_cast<double>(num_matched) / static_cast<double>(image_stamps.size());
   const std::string text =
-      FormatText("ground truth: %zu poses, %zu of %zu images have one within %.0f ms", truth.size(),
-                 num_matched, image_stamps.size(), 1e3 * max_difference);
+      TruthName(index) + FormatText(": %zu poses, %zu of %zu images have one within %.0f ms",
+                                    truth.size(), num_matched, image_stamps.size(),
+                                    1e3 * max_difference);
   if (ratio >= 0.5) {
     findings->push_back(Good("ground_truth.overlap", text, Measurement{ratio, "ratio"}));
     return;

@@ -14,6 +14,7 @@
 #include "msc_vo/features/internal/depth_range_builder.h"
 #include "msc_vo/features/internal/depth_source.h"
 #include "msc_vo/features/internal/feature_depth.h"
+#include "msc_vo/sensor/image_mask.h"
 #include "msc_vo/sensor/lens_remap.h"
 #include "msc_vo/timing/stopwatch.h"
 
@@ -48,6 +49,8 @@ struct FrameBuilder::State {
   LineExtractor line_extractor;
   DepthSource depth;
   FrameBuilderTimes times;
+  cv::Mat mask;              // of the image; empty: none
+  cv::Mat distance_to_mask;  // of its pixels
 
   State(const FrameBuilderOptions& o, const PinholeCamera& c, const LensDistortion& distortion_in)
       : options(o),
@@ -67,9 +70,20 @@ struct FrameBuilder::State {
   }
 
   std::vector<LineFeature> ExtractLines(const cv::Mat& gray) {
-    std::vector<LineFeature> lines = line_extractor.Extract(lens.Undistort(gray), lens.mask());
+    std::vector<LineFeature> lines =
+        line_extractor.Extract(lens.Undistort(gray), lens.mask(), UndistortedDistance());
     for (LineFeature& line : lines) line.sigma = options.noise.line_sigma;
     return lines;
+  }
+
+  // Replaces the mask of the image.
+  void SetMask(const cv::Mat& image_mask) {
+    mask = image_mask;
+    distance_to_mask = DistanceToMask(mask);
+  }
+  cv::Mat UndistortedDistance() const {
+    const bool is_same = mask.empty() || lens.mask().empty();
+    return is_same ? distance_to_mask : DistanceToMask(lens.Undistort(mask != 0));
   }
 
   // The points of one pyramid level, and the time spent on them.
@@ -127,6 +141,7 @@ FrameBuilder::~FrameBuilder() = default;
 void FrameBuilder::Check(const RgbdImage& image) const {
   CheckImage(image.gray, CV_8UC1, state_->camera, "gray");
   CheckImage(image.depth, CV_32FC1, state_->camera, "depth");
+  if (!image.mask.empty()) CheckImage(image.mask, CV_8UC1, state_->camera, "mask");
 }
 
 Frame FrameBuilder::Build(const RgbdImage& image, const TaskRunner& run) {
@@ -141,10 +156,14 @@ Frame FrameBuilder::Build(const RgbdImage& image, const TaskRunner& run) {
   }
   FrameBuilderTimes& times = state_->times;
   Stopwatch stopwatch;
-  state_->depth.Assign(image);
+  RgbdImage unmasked = image;
+  RemoveMaskedDepth(&unmasked);
+  state_->SetMask(image.mask);
+  state_->depth.Assign(unmasked);
   frame.depth_ranges = MakeDepthRanges(state_->depth.image(), state_->lens, frame.camera);
   times.depth = stopwatch.Restart();
-  std::vector<State::PointLevel> levels(state_->point_extractor.SetImage(image.gray));
+  std::vector<State::PointLevel> levels(
+      state_->point_extractor.SetImage(image.gray, state_->distance_to_mask));
   times.points = stopwatch.Restart();
   double line_depth_ms = 0.0;
   Tasks tasks;

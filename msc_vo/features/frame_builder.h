@@ -57,7 +57,7 @@ class FrameBuilder {
                const LensDistortion& distortion);
   ~FrameBuilder();
 
-  /// Throws std::invalid_argument if type or size of the image do not match the camera.
+  /// Throws std::invalid_argument if type or size of the image or its mask do not match the camera.
   void Check(const RgbdImage& image) const;
 
   /// `run` is given one task for the lines and one for each pyramid level of the points, the

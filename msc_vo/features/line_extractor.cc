@@ -75,6 +75,31 @@ bool ClipToMask(const cv::Mat& mask, LineSegment2* segment) {
   return true;
 }
 
+// Returns the parts of the segment whose descriptors see no pixel that is left out; the segment
+// itself if there are no such pixels.
+std::vector<LineSegment2> SplitAtMask(const cv::Mat& distance, const LineSegment2& segment) {
+  if (distance.empty()) return {segment};
+  constexpr double kHalfWidth = LineDescriptorExtractor::kWidth / 2.0;
+  const int steps = std::max(1, static_cast<int>(std::ceil(segment.Length())));
+  const auto is_far = [&](int i) {
+    const Vector2d x = segment.At(static_cast<double>(i) / steps);
+    const int column = std::clamp(cvRound(x.x()), 0, distance.cols - 1);
+    const int row = std::clamp(cvRound(x.y()), 0, distance.rows - 1);
+    return distance.at<float>(row, column) > kHalfWidth;
+  };
+  std::vector<LineSegment2> parts;
+  int first = -1;  // of the present part; -1: none
+  for (int i = 0; i <= steps + 1; ++i) {
+    const bool is_part = i <= steps && is_far(i);
+    if (is_part && first < 0) first = i;
+    if (is_part || first < 0) continue;
+    parts.push_back({segment.At(static_cast<double>(first) / steps),
+                     segment.At(static_cast<double>(i - 1) / steps)});
+    first = -1;
+  }
+  return parts;
+}
+
 }  // namespace
 
 struct LineExtractor::Detectors {
@@ -120,7 +145,8 @@ LineExtractor::LineExtractor(const LineExtractorOptions& options)
 
 LineExtractor::~LineExtractor() = default;
 
-std::vector<LineFeature> LineExtractor::Extract(const cv::Mat& image, const cv::Mat& mask) {
+std::vector<LineFeature> LineExtractor::Extract(const cv::Mat& image, const cv::Mat& mask,
+                                                const cv::Mat& distance_to_left_out) {
   if (image.empty() || image.type() != CV_8UC1) {
     throw std::invalid_argument("LineExtractor: the image must be 8-bit grey (CV_8UC1)");
   }
@@ -129,8 +155,11 @@ std::vector<LineFeature> LineExtractor::Extract(const cv::Mat& image, const cv::
   std::vector<LineSegment2> pieces;
   for (LineSegment2 segment : detectors_->pieces) {
     if (segment.Length() < kMinPiece || !ClipToMask(mask, &segment)) continue;
-    OrientToBrighterSide(gray, &segment);
-    pieces.push_back(segment);
+    for (LineSegment2 part : SplitAtMask(distance_to_left_out, segment)) {
+      if (!distance_to_left_out.empty() && part.Length() < kMinPiece) continue;
+      OrientToBrighterSide(gray, &part);
+      pieces.push_back(part);
+    }
   }
   const double min_length = options_.min_length * std::min(gray.cols, gray.rows);
   std::vector<LineFeature> features;

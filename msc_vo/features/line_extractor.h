@@ -45,8 +45,11 @@ class LineExtractor {
 
   /// Returns the lines of an undistorted 8-bit grey image, longest first, without depth and with
   /// sigma 1. `mask` (CV_8UC1 of the same size, or empty) is zero at pixels without image content,
-  /// where segments are clipped. Throws std::invalid_argument if the image is not CV_8UC1.
-  std::vector<LineFeature> Extract(const cv::Mat& image, const cv::Mat& mask = cv::Mat());
+  /// where segments are clipped. `distance_to_left_out`, of the same size or empty, see
+  /// DistanceToMask(): segments are split where their descriptor would see a pixel that is left
+  /// out. Throws std::invalid_argument if the image is not CV_8UC1.
+  std::vector<LineFeature> Extract(const cv::Mat& image, const cv::Mat& mask = cv::Mat(),
+                                   const cv::Mat& distance_to_left_out = cv::Mat());
 
  private:
   struct Detectors;

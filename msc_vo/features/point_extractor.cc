@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 #include <tuple>
 
@@ -98,10 +99,17 @@ cv::Rect DetectionArea(const cv::Mat& level) {
   return {kBorder, kBorder, level.cols - 2 * kBorder, level.rows - 2 * kBorder};
 }
 
+// `is_usable`: of the pixels of corners; empty: all are.
 std::vector<FastCorner> DetectCorners(const cv::Mat& level, int num_wanted,
-                                      const PointExtractorOptions& options) {
+                                      const PointExtractorOptions& options,
+                                      const std::function<bool(const cv::Point&)>& is_usable) {
   const cv::Rect area = DetectionArea(level);
-  CellGrid grid(area, num_wanted, DetectFastCorners(level, area, options.min_fast_threshold));
+  std::vector<FastCorner> corners = DetectFastCorners(level, area, options.min_fast_threshold);
+  if (is_usable) {
+    const auto is_left_out = [&](const FastCorner& corner) { return !is_usable(corner.pixel); };
+    corners.erase(std::remove_if(corners.begin(), corners.end(), is_left_out), corners.end());
+  }
+  CellGrid grid(area, num_wanted, corners);
   grid.RemoveWeakBesideStrong(options.fast_threshold);
   return grid.Select();
 }
@@ -166,10 +174,19 @@ PointExtractor::PointExtractor(const PointExtractorOptions& options) : options_(
   }
 }
 
-int PointExtractor::SetImage(const cv::Mat& gray) {
+bool PointExtractor::IsFarFromMask(const Level& level, const cv::Point& pixel) const {
+  const Eigen::Vector2d position =
+      ToFullImage({pixel.x, pixel.y}, level.image.size(), levels_[0].image.size());
+  const int x = std::clamp(cvRound(position.x()), 0, distance_to_mask_.cols - 1);
+  const int y = std::clamp(cvRound(position.y()), 0, distance_to_mask_.rows - 1);
+  return distance_to_mask_.at<float>(y, x) > kBorder * level.scale;
+}
+
+int PointExtractor::SetImage(const cv::Mat& gray, const cv::Mat& distance_to_mask) {
   if (gray.empty() || gray.type() != CV_8UC1) {
     throw std::invalid_argument("PointExtractor: the image must be 8-bit grey (CV_8UC1)");
   }
+  distance_to_mask_ = distance_to_mask;
   levels_[0].image = StandaloneImage(gray);
   for (size_t l = 0; l < levels_.size(); ++l) {
     const cv::Size size(cvRound(gray.cols / levels_[l].scale),
@@ -183,12 +200,18 @@ int PointExtractor::SetImage(const cv::Mat& gray) {
 
 std::vector<PointFeature> PointExtractor::ExtractLevel(int l) {
   Level& level = levels_[l];
-  const std::vector<FastCorner> corners = DetectCorners(level.image, level.num_points, options_);
+  std::function<bool(const cv::Point&)> is_usable;
+  if (!distance_to_mask_.empty()) {
+    is_usable = [&](const cv::Point& pixel) { return IsFarFromMask(level, pixel); };
+  }
+  const std::vector<FastCorner> corners =
+      DetectCorners(level.image, level.num_points, options_, is_usable);
   // Binomial filter of size five: approximately a Gaussian of one pixel.
   cv::GaussianBlur(level.image, level.smooth, cv::Size(5, 5), /*sigmaX=*/0.0);
   const PointDescriptorExtractor descriptor_extractor(level.image, level.smooth);
   std::vector<PointFeature> points;
   for (const RefinedCorner& corner : RefineCorners(level.image, level.smooth, corners)) {
+    if (is_usable && !is_usable(corner.pixel)) continue;  // refinement has moved it
     PointFeature point;
     point.pixel = ToFullImage(corner.position, level.image.size(), levels_[0].image.size());
     point.sigma = level.scale;

@@ -37,8 +37,10 @@ class PointExtractor {
   /// Throws std::invalid_argument if the image is not CV_8UC1.
   std::vector<PointFeature> Extract(const cv::Mat& gray);
 
-  /// Builds the pyramid and returns its number of levels, for ExtractLevel(). Throws as Extract().
-  int SetImage(const cv::Mat& gray);
+  /// Builds the pyramid and returns its number of levels, for ExtractLevel(). `distance_to_mask`,
+  /// of the size of the image or empty, see DistanceToMask(): no point is extracted whose
+  /// descriptor would see the mask. Throws as Extract().
+  int SetImage(const cv::Mat& gray, const cv::Mat& distance_to_mask = cv::Mat());
   /// Extracts the points of one level. Different levels may be extracted in any order and
   /// concurrently.
   std::vector<PointFeature> ExtractLevel(int level);
@@ -51,8 +53,12 @@ class PointExtractor {
     double scale = 1.0;
   };
 
+  // Whether the descriptor of a pixel of a level sees no pixel that is left out.
+  bool IsFarFromMask(const Level& level, const cv::Point& pixel) const;
+
   PointExtractorOptions options_;
   std::vector<Level> levels_;
+  cv::Mat distance_to_mask_;
 };
 
 }  // namespace msc_vo

@@ -48,6 +48,11 @@ cv::Mat DecodeImage(const std::string& bytes, int mode) {
   } catch (const cv::Exception& error) {
     // An image that does not fit into the memory is not damaged: frames must not depend on that.
     if (error.code == cv::Error::StsNoMem) throw std::bad_alloc();
+    if (error.code == cv::Error::StsNotImplemented) {
+      throw std::runtime_error(
+          "OpenCV does not decode images of this format here; EXR needs the environment variable "
+          "OPENCV_IO_ENABLE_OPENEXR=1 before the program starts");
+    }
     return {};
   }
 }

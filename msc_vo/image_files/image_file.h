@@ -15,10 +15,11 @@ struct ImageSize {
   int height = 0;
 };
 
-/// Decodes the contents of an image file (PNG, JPEG, BMP, TIFF, WebP, PBM, PGM or PPM); `mode` is
-/// one of OpenCV's cv::ImreadModes. Returns an empty image if the contents are damaged or no such
-/// image, and without decoding it if the header claims more pixels than the file can hold.
+/// Decodes the contents of an image file (PNG, JPEG, BMP, TIFF, EXR, WebP, PBM, PGM or PPM); `mode`
+/// is one of OpenCV's cv::ImreadModes. Returns an empty image if the contents are damaged or no
+/// such image, and without decoding it if the header claims more pixels than the file can hold.
 /// Throws std::runtime_error if the file needs OpenCV's image formats and these are not installed,
+/// or is EXR without OPENCV_IO_ENABLE_OPENEXR=1 in the environment, which the command msc_vo sets,
 /// and std::bad_alloc without enough memory, which does not make an image damaged.
 cv::Mat DecodeImage(const std::string& bytes, int mode);
 

@@ -126,6 +126,33 @@ std::optional<ImageSize> WebpSize(const Bytes& bytes) {
   return MakeSize(*width & kFourteenBits, *height & kFourteenBits);
 }
 
+// Attributes, each a name and a type that end with 0, a size and a value, until an empty name. The
+// size of the image follows from the attribute dataWindow.
+std::optional<ImageSize> ExrSize(const std::string& bytes) {
+  constexpr size_t kMaxAttributes = 1000;
+  const Bytes file(bytes);
+  size_t at = 8;
+  for (size_t i = 0; i < kMaxAttributes; ++i) {
+    const size_t name_end = bytes.find('\0', at);
+    if (name_end == std::string::npos || name_end == at) return std::nullopt;
+    const size_t type_end = bytes.find('\0', name_end + 1);
+    if (type_end == std::string::npos) return std::nullopt;
+    const auto size = file.Number(type_end + 1, 4, ByteOrder::kLittle);
+    if (!size) return std::nullopt;
+    const size_t value = type_end + 5;
+    if (bytes.compare(at, name_end - at, "dataWindow") != 0) {
+      at = value + *size;
+      if (at >= bytes.size()) return std::nullopt;
+      continue;
+    }
+    std::optional<uint32_t> ends[4];
+    for (size_t k = 0; k < 4; ++k) ends[k] = file.Number(value + 4 * k, 4, ByteOrder::kLittle);
+    if (!ends[0] || !ends[1] || !ends[2] || !ends[3]) return std::nullopt;
+    return MakeSize(*ends[2] - *ends[0] + 1, *ends[3] - *ends[1] + 1);
+  }
+  return std::nullopt;
+}
+
 // "P5", then width and height between blanks and comments.
 std::optional<ImageSize> PnmSize(const std::string& bytes) {
   uint32_t sides[2] = {};
@@ -155,6 +182,7 @@ std::optional<ImageSize> SizeInHeader(const std::string& content) {
   if (bytes.StartWith("BM")) return BmpSize(bytes);
   if (bytes.StartWith(std::string("II*\0", 4))) return TiffSize(bytes, ByteOrder::kLittle);
   if (bytes.StartWith(std::string("MM\0*", 4))) return TiffSize(bytes, ByteOrder::kBig);
+  if (bytes.StartWith("\x76\x2F\x31\x01")) return ExrSize(content);
   if (bytes.StartWith("RIFF") && bytes.Have(8, "WEBP")) return WebpSize(bytes);
   if (bytes.StartWith("P") && content.find_first_of("123456", 1) == 1) return PnmSize(content);
   return std::nullopt;

@@ -11,7 +11,8 @@
 namespace msc_vo {
 
 /// Returns the size that the header of an image file gives, without decoding the image. None if the
-/// file is damaged before the size or is not a PNG, JPEG, BMP, TIFF, WebP, PBM, PGM or PPM file.
+/// file is damaged before the size or is not a PNG, JPEG, BMP, TIFF, EXR, WebP, PBM, PGM or PPM
+/// file.
 std::optional<ImageSize> SizeInHeader(const std::string& bytes);
 
 /// Tests whether an image of this size may be decoded from so many bytes. A few bytes can claim a

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "msc_vo/odometry/input_checks.h"
+#include "msc_vo/sensor/image_mask.h"
 #include "msc_vo/sensor/standalone_image.h"
 #include "msc_vo/timing/stopwatch.h"
 
@@ -32,6 +33,7 @@ AlignedImage ImagePipeline::Align(const RgbdImage& given,
   AlignedImage image;
   Timed(&image.milliseconds, [&] {
     image.recorded = StandaloneImages(given);
+    RemoveMaskedDepth(&image.recorded);
     if (finds_clipped_depth_) image.recorded = preparation_.RemoveClipped(image.recorded);
     image.aligned =
         options_.align_depth ? preparation_.Align(image.recorded, velocity) : image.recorded;
@@ -46,6 +48,7 @@ ExtractedFrame ImagePipeline::Extract(const AlignedImage& image, StageTimes* tim
   times->features = image.milliseconds;
   RgbdImage registered =
       Timed(&times->features, [&] { return preparation_.Register(image.aligned); });
+  RemoveMaskedDepth(&registered);  // which alignment and registration move
   times->depth = times->features;
   const auto frame = Timed(
       &times->features, [&] { return std::make_shared<Frame>(builder_.Build(registered, run)); });

@@ -145,6 +145,7 @@ SequenceIndex OpenOniFile(const std::string& path) {
   const auto container = std::make_shared<OniContainer>(path);
   SequenceIndex index;
   index.format = "oni";
+  index.recorder = "recorder of OpenNI2";
   index.directory = path;
   const ImageLists images{ListFrames(path + ":colour", &container->color()),
                           ListFrames(path + ":depth", &container->depth())};

@@ -133,6 +133,7 @@ class OpenNiCamera : public RgbdCamera {
 SequenceIndex OpenOpenNiCamera(const std::string& uri) {
   SequenceIndex index;
   index.format = "openni2";
+  index.recorder = "camera of OpenNI2";
   index.directory = "openni2:" + uri;
   const auto camera = std::make_shared<OpenNiCamera>(index.directory, uri);
   index.depth_scale = DepthScaleOf(camera->depth());

@@ -145,7 +145,7 @@ std::vector<LegendEntry> PathLegend(const ReportData& data) {
     legend.push_back({Swatch::kCurve, "curve odometry", "before loops were closed"});
   }
   if (!data.ground_truth.empty()) {
-    legend.push_back({Swatch::kCurve, "curve ground-truth", "ground truth"});
+    legend.push_back({Swatch::kCurve, "curve ground-truth", data.truth_name});
   }
   for (size_t i = 0; i < data.map.sessions.size(); ++i) {
     const std::string& name = data.map.sessions[i].name;

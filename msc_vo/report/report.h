@@ -103,6 +103,7 @@ struct ReportData {
   std::vector<ReportStage> stages;                  ///< of tracking, in order of time
   std::vector<ReportFrame> frames;                  ///< in order of time
   std::vector<ReportGroundTruthPose> ground_truth;  ///< in order of time; may be empty
+  std::string truth_name = "ground truth";          ///< what `ground_truth` is called
   std::vector<ReportLoop> loops;                    ///< in order of time; may be empty
   /// Camera centres before any loop was closed, metres, one per frame or none at all; not finite
   /// where the path has a gap.

@@ -222,6 +222,7 @@ std::string FormatRunJson(const ReportData& data) {
     if (pose.position.allFinite()) Append(pose.position, &truth);
   }
   json["ground_truth"] = EncodeBase64(truth);
+  json["truth_name"] = data.truth_name;
   json["loops"] = LoopsToJson(data.loops, static_cast<int>(data.frames.size()));
   if (!data.odometry.empty()) {
     std::vector<float> positions;

@@ -146,7 +146,7 @@ std::string WriteResultFiles(const std::string& directory, const OdometryResult&
   const std::vector<TimedPose>& truth = context.sequence.ground_truth;
   TryTo(
       [&] {
-        if (!truth.empty()) WriteTrajectory(path("groundtruth.txt"), truth);
+        if (!truth.empty()) WriteTrajectory(path(TruthFileName(context.sequence)), truth);
       },
       &missing);
   TryTo([&] { WriteFile(path("report.html"), FormatReport(result, summary, context)); }, &missing);

@@ -134,9 +134,9 @@ std::vector<ReportNumber> MakeNumbers(const RunSummary& summary, const RunContex
            FormatText("%d pairs", error.rpe_per_second.translation.count)});
     }
     numbers.push_back({"Coverage", FormatText("%.1f %%", 100.0 * error.coverage),
-                       "of the ground-truth poses have an estimated pose"});
+                       "of the reference poses have an estimated pose"});
     for (const std::string& warning : error.warnings) {
-      numbers.push_back({"Ground truth", "doubtful", warning});
+      numbers.push_back({TruthName(context.sequence), "doubtful", warning});
     }
   }
   numbers.push_back({"Frames", StatusText(summary), context.outcome});
@@ -262,7 +262,7 @@ std::string ErrorRows(const TrajectoryError& error) {
     rows += Row("", FormatText("RPE %.1f mm/s, %.2f deg/s", 1000.0 * second.translation.rmse,
                                RadiansToDegrees(second.rotation.rmse)));
   }
-  return rows + Row("", FormatText("%.1f %% of the ground-truth poses have an estimated pose",
+  return rows + Row("", FormatText("%.1f %% of the reference poses have an estimated pose",
                                    100.0 * error.coverage));
 }
 
@@ -311,8 +311,9 @@ std::string FormatRunTable(const RunSummary& summary, const RunContext& context,
   table += Row("output", output_directory + " (report.html, trajectory.txt, summary.json, ...)");
   if (context.error && context.error->usable) {
     const std::filesystem::path output = output_directory;
-    table += Row("check with", "evo_ape tum " + (output / "groundtruth.txt").string() + " " +
-                                   (output / "trajectory.txt").string() + " -a --t_max_diff 0.02");
+    table +=
+        Row("check with", "evo_ape tum " + (output / TruthFileName(context.sequence)).string() +
+                              " " + (output / "trajectory.txt").string() + " -a --t_max_diff 0.02");
     if (summary.num_estimated < summary.num_frames) {
       table += Row("",
                    "(evo_ape compares all poses, like msc_vo evaluate --all-poses; the errors "
@@ -328,6 +329,7 @@ std::string FormatReport(const OdometryResult& result, const RunSummary& summary
   Rigid3 ground_truth_from_world;
   if (context.error && context.error->usable) {
     ground_truth_from_world = context.error->reference_from_estimate;
+    data.truth_name = TruthName(context.sequence);
     for (const TimedPose& pose : context.sequence.ground_truth) {
       data.ground_truth.push_back({pose.timestamp, pose.world_from_cam.translation()});
     }

@@ -3,11 +3,13 @@
 
 #include "msc_vo/results/sequence_identity.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <system_error>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -80,11 +82,20 @@ SequenceIdentity IdentifySequence(const SequenceIndex& index) {
   SequenceIdentity sequence = IdentifySequence(index.directory);
   if (index.camera) return sequence;
   std::string stamps, files;
+  const bool is_files = !index.container || IsFolder(index.directory);
   for (const SequenceEntry& entry : index.entries) {
     stamps += FormatNumber(entry.timestamp) + " " + FormatNumber(entry.depth_delay) + "\n";
-    if (!index.container) files += NameAndSize(entry.color_path) + NameAndSize(entry.depth_path);
+    if (is_files) files += NameAndSize(entry.color_path) + NameAndSize(entry.depth_path);
   }
-  if (index.container) files = NameAndSize(index.directory);
+  if (!is_files) {
+    files = NameAndSize(index.directory);
+  } else if (index.container) {  // files of text, a video, the files of a bag
+    std::vector<std::string> others = ListFolder(index.directory);
+    std::sort(others.begin(), others.end());
+    for (const std::string& path : others) {
+      if (!IsFolder(path)) files += NameAndSize(path);
+    }
+  }
   sequence.stamps = ChecksumText(stamps);
   sequence.images = ChecksumText(files);
   return sequence;

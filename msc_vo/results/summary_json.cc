@@ -93,10 +93,13 @@ std::string FormatSummaryJson(const RunSummary& summary, const RunContext& conte
   json["version"] = kVersion;
   json["command_line"] = context.command_line;
   json["outcome"] = context.outcome;
-  json["sequence"] = {{"directory", context.sequence.directory},
-                      {"format", context.sequence.format},
-                      {"images", context.sequence.entries.size()},
-                      {"warnings", context.sequence.warnings}};
+  json["sequence"] = {
+      {"directory", context.sequence.directory},
+      {"format", context.sequence.format},
+      {"recorder", context.sequence.recorder},
+      {"reference", context.sequence.reference.empty() ? Json() : Json(context.sequence.reference)},
+      {"images", context.sequence.entries.size()},
+      {"warnings", context.sequence.warnings}};
   json["camera"] = CameraToJson(context.calibration);
   json["final_camera"] = Json::parse(FormatCalibrationJson(FinalCalibration(summary, context)));
   json["first_unreadable_image"] =

@@ -15,6 +15,7 @@
 #include "msc_vo/ros_bag/realsense_camera.h"
 #include "msc_vo/ros_bag/topic_choice.h"
 #include "msc_vo/text/files.h"
+#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 
@@ -166,6 +167,16 @@ double DepthScaleOf(const BagFile& bag, const std::string& topic,
   return scale.value_or(kUnitsOfMillimetres);
 }
 
+// The program that writes such files and topics.
+std::string RecorderOf(const BagFile& bag) {
+  for (const BagTopic& topic : bag.topics()) {
+    if (topic.name.rfind("/device_0/sensor_", 0) == 0) return "RealSense viewer";
+  }
+  const std::string path = Lowercase(bag.path());
+  const bool is_ros1 = path.size() > 4 && path.compare(path.size() - 4, 4, ".bag") == 0;
+  return is_ros1 ? "rosbag record, ROS 1" : "ros2 bag record, ROS 2";
+}
+
 void ReadGroundTruth(const std::string& path, SequenceIndex* index) {
   const std::string truth =
       (std::filesystem::path(path).parent_path() / (BagName(path) + "-groundtruth.txt")).string();
@@ -181,6 +192,7 @@ SequenceIndex OpenBag(const std::string& given_path, const BagTopics& topics) {
   SequenceIndex index;
   index.warnings = bag->warnings();
   index.format = "ros-bag";
+  index.recorder = RecorderOf(*bag);
   index.directory = path;
   const std::vector<ImageTopic> all = FindImageTopics(*bag, &index.warnings);
   const ImageTopic depth =

@@ -20,6 +20,10 @@ struct RgbdImage {
   /// The depth image as the sensor recorded it, if `depth` was registered to the colour image or
   /// aligned to its time, which changes its noise; otherwise empty.
   cv::Mat recorded_depth = {};
+  /// CV_8UC1 of the size of `gray`: pixels that are not zero are left out, as those of the robot's
+  /// own arm or of people. No feature is detected on them or so near that its descriptor would see
+  /// them, and their depth is not used. Empty: all pixels are used.
+  cv::Mat mask = {};
 };
 
 }  // namespace msc_vo

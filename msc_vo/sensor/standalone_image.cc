@@ -13,6 +13,7 @@ RgbdImage StandaloneImages(RgbdImage image) {
   image.gray = StandaloneImage(image.gray);
   image.depth = StandaloneImage(image.depth);
   image.recorded_depth = StandaloneImage(image.recorded_depth);
+  image.mask = StandaloneImage(image.mask);
   return image;
 }
 

@@ -23,6 +23,7 @@ ELSEWHERE = {
     "record openni2:": "OpenNi2Command",
     "_xyz.bag": "RosBag",
     "replay --resume": "ResumeTest",
+    " my_scan": "PhoneCommandTest",
 }
 # Shorter, so that the test is fast.
 SHORTENED = [(re.compile(r"--frames \d+"), "--frames 4")]

@@ -24,6 +24,28 @@ class SequenceTest(unittest.TestCase):
         gc.collect()
         np.testing.assert_array_equal(depth, copy)  # the array keeps the image
 
+    def test_masks_leave_out_pixels(self):
+        self.assertIsNone(support.room()[0].mask)
+        pixels = np.zeros((480, 640), np.uint8)
+        pixels[:, :320] = 255
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "mask.pgm"
+            path.write_bytes(b"P5 640 480 255\n" + pixels.tobytes())
+            directory = support.room().directory
+            image = msc_vo.Sequence(directory, mask=path)[0]
+            inverse = msc_vo.Sequence(directory, mask=path, mask_zero=True)[0]
+        np.testing.assert_array_equal(image.mask, pixels)
+        self.assertEqual(image.depth[:, :320].max(), 0.0)
+        self.assertGreater(image.depth[:, 320:].max(), 0.0)
+        self.assertEqual(inverse.depth[:, 320:].max(), 0.0)
+        seen = []
+        odometry = msc_vo.Odometry(None, support.room().camera)
+        odometry.set_tracking_observer(lambda tracked: seen.append(tracked.points))
+        odometry.process(image.timestamp, image.gray, support.room()[0].depth, mask=image.mask)
+        self.assertGreater(seen[0][:, 0].min(), 320.0 + 17.0)
+        with self.assertRaisesRegex(ValueError, "mask"):
+            odometry.process(image.timestamp + 1.0, image.gray, image.depth, mask=pixels[:240])
+
     def test_missing_folders_are_named(self):
         with self.assertRaisesRegex(RuntimeError, "no_such_folder"):
             msc_vo.Sequence("no_such_folder")

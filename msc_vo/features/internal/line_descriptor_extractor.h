@@ -25,6 +25,9 @@ namespace msc_vo {
 /// Keeps its buffers between calls; not thread-safe.
 class LineDescriptorExtractor {
  public:
+  /// Width of the region of a line, pixels of the full image.
+  static constexpr int kWidth = 72;
+
   /// Sets the image that the lines lie in, CV_8UC1, not empty.
   void SetImage(const cv::Mat& gray);
 

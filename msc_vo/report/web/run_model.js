@@ -57,6 +57,7 @@ class RunModel extends EventTarget {
     };
     this.axes = data.axes || null;
     this.groundTruth = decodeArray(Float32Array, data.ground_truth);
+    this.truthName = data.truth_name || "ground truth";
     this.odometry = decodeArray(Float32Array, data.odometry);  // positions before loops, or empty
     this.surface = surface && decodeSurface(surface);
     this.setPlaces(data);

@@ -136,7 +136,7 @@ class SceneLayers {
     // Label, object; the first nine in order of the keys 1 to 9.
     this.all = [
       ["lines", this.lines], ["points", this.points], ["keyframes", this.keyframes],
-      ["trajectory", this.trajectory], ["ground truth", this.truth], ["axes", this.axes],
+      ["trajectory", this.trajectory], [model.truthName, this.truth], ["axes", this.axes],
       ["camera", this.camera], ["surface", this.surface], ["loops", this.loops],
       ["before loops", this.odometry], ["earlier sessions", this.sessions], ["found", this.found]
     ];
@@ -146,7 +146,7 @@ class SceneLayers {
 
   // Whether the layer has anything to show.
   isEmpty(label) {
-    if (label === "ground truth") return this.model.groundTruth.length === 0;
+    if (label === this.model.truthName) return this.model.groundTruth.length === 0;
     if (label === "loops") return loopSegments(this.model).length === 0;
     if (label === "before loops") return this.model.odometry.length === 0;
     if (label === "earlier sessions") return this.model.map.sessions.length === 0;

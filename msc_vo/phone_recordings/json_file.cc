@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/phone_recordings/json_file.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include <nlohmann/json.hpp>
+
+#include "msc_vo/text/files.h"
+
+namespace msc_vo {
+
+JsonFile::JsonFile(const std::string& path) : path_(path) {
+  constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 20;
+  json_ = std::make_unique<nlohmann::json>(
+      nlohmann::json::parse(ReadFile(path, kMaxBytes), nullptr, /*allow_exceptions=*/false));
+  if (json_->is_object()) return;
+  throw std::runtime_error(path + ": is damaged or no JSON object; export the recording again");
+}
+
+JsonFile::~JsonFile() = default;
+
+void JsonFile::Fail(const std::string& key, const std::string& problem) const {
+  throw std::runtime_error(path_ + ": \"" + key + "\" " + problem + "; export the recording again");
+}
+
+bool JsonFile::Has(const std::string& key) const { return json_->contains(key); }
+
+double JsonFile::Number(const std::string& key) const {
+  if (!Has(key)) Fail(key, "is missing");
+  const nlohmann::json& value = (*json_)[key];
+  if (!value.is_number() || !std::isfinite(value.get<double>())) Fail(key, "is no finite number");
+  return value.get<double>();
+}
+
+std::vector<double> JsonFile::Numbers(const std::string& key, size_t count) const {
+  if (!Has(key)) Fail(key, "is missing");
+  std::vector<double> numbers;
+  const nlohmann::json& values = (*json_)[key];
+  if (values.is_array() && values.size() == count) {
+    for (const nlohmann::json& value : values) {
+      if (value.is_number() && std::isfinite(value.get<double>())) {
+        numbers.push_back(value.get<double>());
+      }
+    }
+  }
+  if (numbers.size() != count) {
+    Fail(key, "is no array of " + std::to_string(count) + " finite numbers");
+  }
+  return numbers;
+}
+
+}  // namespace msc_vo
