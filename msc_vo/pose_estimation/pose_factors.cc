@@ -12,6 +12,7 @@
 #include "msc_vo/factors/camera_linearization.h"
 #include "msc_vo/factors/rigid3_manifold.h"
 #include "msc_vo/factors/robust_loss.h"
+#include "msc_vo/pose_estimation/row_sum.h"
 
 namespace msc_vo {
 
@@ -89,23 +90,19 @@ bool PoseTerm<Factor>::AddTo(const Rigid3& cam_from_world, NormalEquations* sum)
   const Eigen::Vector3d translation = cam_from_world.translation();
   const HuberLoss loss{huber};
   CameraPoints<Factor::kNumPoints> points;
-  Eigen::Matrix<double, Factor::kNumResiduals, 6> j;
+  RowSum rows;
   for (const Block& block : blocks) {
     if (!points.Set(block.factor, rotation, translation, block.landmark.data())) return false;
     const CameraLinearization<Factor> at = LinearizeInCamera(block.factor, points);
-    for (int row = 0; row < Factor::kNumResiduals; ++row) {
-      j.row(row) = points.ByPose(row / kRows, at.by_x[row / kRows].row(row % kRows));
-    }
     const double s = at.residual.squaredNorm();
     const double weight = loss.Weight(s);
     sum->cost += 0.5 * loss.Cost(s);
-    sum->gradient += weight * (j.transpose() * at.residual);
-    for (int column = 0; column < 6; ++column) {
-      for (int row = column; row < 6; ++row) {
-        sum->hessian(row, column) += weight * j.col(row).dot(j.col(column));
-      }
+    for (int row = 0; row < Factor::kNumResiduals; ++row) {
+      const int k = row / kRows;
+      rows.Add(points.rotated[k], at.by_x[k].row(row % kRows), at.residual[row], weight);
     }
   }
+  rows.AddTo(&sum->hessian, &sum->gradient);
   return true;
 }
 

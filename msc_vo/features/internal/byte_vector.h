@@ -6,13 +6,8 @@
 #include <cstdint>
 #include <cstring>
 
-// Marks a function that is compiled twice, with AVX2 and without; the loader selects the version
-// for the processor. ThreadSanitizer is not initialised yet when the loader selects.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
-#define MSC_VO_AVX2_IF_PRESENT [[gnu::target_clones("avx2", "default")]]
-#else
-#define MSC_VO_AVX2_IF_PRESENT
-#endif
+#include "msc_vo/geometry/avx2.h"
+
 #define MSC_VO_INLINE [[gnu::always_inline]] inline
 
 // Vectors are passed between inlined functions only, so no calling convention applies.

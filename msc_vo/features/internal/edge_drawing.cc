@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
+
+#include "msc_vo/geometry/avx2.h"
 
 namespace msc_vo {
 
@@ -21,11 +24,22 @@ constexpr int kScanInterval = 4;
 // Shortest chain that is kept, pixels.
 constexpr int kMinChain = 10;
 
-bool IsAnchor(const ImageGradient& gradient, int pixel, int across) {
-  const int magnitude = gradient.Magnitude(pixel);
-  // Of two equal neighbours, the first one is the anchor.
-  return magnitude >= kMinMagnitude && magnitude > gradient.Magnitude(pixel - across) &&
-         magnitude >= gradient.Magnitude(pixel + across);
+// Writes which pixels of a row are anchors: edge pixels with the largest magnitude across the edge,
+// of two equal neighbours the first. Of edges along x, those in columns that `in_column` marks are
+// wanted, of edges along y all if `in_row`. 16-bit arithmetic without branches and non-aliasing
+// pointers let the compiler process many pixels at once.
+MSC_VO_AVX2_IF_PRESENT
+void MarkAnchors(const int16_t* __restrict above, const int16_t* __restrict here,
+                 const int16_t* __restrict below, const int16_t* __restrict y, int width,
+                 const int16_t* __restrict in_column, int16_t in_row,
+                 int16_t* __restrict is_anchor) {
+  for (int x = 1; x < width - 1; ++x) {
+    const int16_t magnitude = here[x];
+    const int16_t is_horizontal = 2 * std::abs(y[x]) >= magnitude;
+    const int16_t across_y = (magnitude > above[x]) & (magnitude >= below[x]) & in_column[x];
+    const int16_t across_x = (magnitude > here[x - 1]) & (magnitude >= here[x + 1]) & in_row;
+    is_anchor[x] = (magnitude >= kMinMagnitude) & (is_horizontal ? across_y : across_x);
+  }
 }
 
 // Returns the pixel of largest magnitude among the three ahead of `pixel`; the one straight ahead
@@ -54,17 +68,16 @@ void EdgeDrawing::Draw(const ImageGradient& gradient) {
 void EdgeDrawing::FindAnchors(const ImageGradient& gradient) {
   const int width = gradient.width();
   unsorted_anchors_.clear();
+  in_column_.assign(width, 0);
+  for (int x = kScanInterval; x + 1 < width; x += kScanInterval) in_column_[x] = 1;
+  is_anchor_.assign(width, 0);
   for (int y = 1; y + 1 < gradient.height(); ++y) {
-    const int row = y * width;
-    const bool scan_row = y % kScanInterval == 0;
-    for (int x = scan_row ? 1 : kScanInterval; x + 1 < width; x += scan_row ? 1 : kScanInterval) {
-      const int pixel = row + x;
-      if (gradient.Magnitude(pixel) < kMinMagnitude) continue;
-      const bool is_horizontal = gradient.IsHorizontalEdge(pixel);
-      const bool scanned = is_horizontal ? x % kScanInterval == 0 : scan_row;
-      if (scanned && IsAnchor(gradient, pixel, is_horizontal ? width : 1)) {
-        unsorted_anchors_.push_back(pixel);
-      }
+    MarkAnchors(gradient.MagnitudesOf(y - 1), gradient.MagnitudesOf(y),
+                gradient.MagnitudesOf(y + 1), gradient.YsOf(y), width, in_column_.data(),
+                y % kScanInterval == 0, is_anchor_.data());
+    const auto end = is_anchor_.end();
+    for (auto x = is_anchor_.begin(); (x = std::find(x, end, 1)) != end; ++x) {
+      unsorted_anchors_.push_back(y * width + static_cast<int>(x - is_anchor_.begin()));
     }
   }
   SortAnchors(gradient);

@@ -25,6 +25,11 @@ class ImageGradient {
   int Y(int pixel) const { return y_[pixel]; }
   /// |X| + |Y|; 0 on the border of the image.
   int Magnitude(int pixel) const { return magnitude_[pixel]; }
+  /// The magnitudes of a row, and its components along y.
+  const int16_t* MagnitudesOf(int row) const {
+    return &magnitude_[static_cast<size_t>(row) * width_];
+  }
+  const int16_t* YsOf(int row) const { return &y_[static_cast<size_t>(row) * width_]; }
   /// True if an edge through the pixel is closer to the x axis than to the y axis.
   bool IsHorizontalEdge(int pixel) const {
     return 2 * std::abs(static_cast<int>(y_[pixel])) >= magnitude_[pixel];
