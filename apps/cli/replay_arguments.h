@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,7 @@ struct ReplayArguments {
   std::string mode;
   std::string lines;
   bool no_points = false;
+  std::optional<bool> planes;
   bool no_lines = false;
   bool no_parallel = false;
   bool no_perpendicular = false;

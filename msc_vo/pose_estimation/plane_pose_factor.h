@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <vector>
+
+#include "msc_vo/frame/plane_feature.h"
+#include "msc_vo/map/plane_landmark.h"
+#include "msc_vo/pose_estimation/pose_factor.h"
+
+namespace msc_vo {
+
+/// Factors over the pose of a frame: its matched planes, those of the map held fixed
+/// (PlaneObservation). Matches with planes that are no longer in the map are left out.
+std::vector<PoseFactor> MakePlanePoseFactors(const std::vector<PlaneFeature>& features,
+                                             const std::vector<PlaneMatch>& matches,
+                                             const MapPlanes& map);
+
+}  // namespace msc_vo
