@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,7 +33,8 @@ struct ReplayArguments {
   std::string mode;
   std::string lines;
   bool no_points = false;
-  std::optional<bool> planes;
+  bool planes = false;
+  bool no_planes = false;
   bool no_lines = false;
   bool no_parallel = false;
   bool no_perpendicular = false;

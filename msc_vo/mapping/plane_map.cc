@@ -5,15 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 
-#include <ceres/loss_function.h>
-
-#include "msc_vo/factors/chi_square.h"
 #include "msc_vo/factors/plane_manifold.h"
 #include "msc_vo/factors/plane_observation.h"
 #include "msc_vo/matching/plane_matcher.h"
+#include "msc_vo/pose_estimation/plane_factors.h"
 
 namespace msc_vo {
 
@@ -101,7 +100,6 @@ void PlaneMap::AddTo(const Map& map, WindowData* window) const {
     if (seen == keyframes_.end()) continue;
     for (const PlaneMatch& match : seen->second) ++num_observers[match.plane];
   }
-  static const auto loss = std::make_shared<const ceres::HuberLoss>(kHuberThreshold[3]);
   static const auto manifold = std::make_shared<const PlaneManifold>();
   const MapPlanes in_world = InWorld(map);
   for (const WindowData::Keyframe& keyframe : window->keyframes) {
@@ -114,11 +112,7 @@ void PlaneMap::AddTo(const Map& map, WindowData* window) const {
       const PlaneFeature& feature = features[match.feature];
       if (!std::isfinite(SquaredResidual(feature, keyframe.cam_from_world, plane->plane))) continue;
       window->custom_factors.push_back(
-          {"plane",
-           PlaneObservation::CreateShared(feature.inverse_depth,
-                                          noise_ * noise_ * feature.covariance),
-           loss,
-           {BlockId::Pose(keyframe.id), BlockOf(match.plane)}});
+          MakePlaneFactor(feature, noise_, BlockId::Pose(keyframe.id), BlockOf(match.plane)));
     }
   }
   for (const auto& [id, count] : num_observers) {

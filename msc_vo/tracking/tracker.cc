@@ -11,7 +11,7 @@
 #include "msc_vo/frame/feature_counts.h"
 #include "msc_vo/matching/local_map.h"
 #include "msc_vo/matching/plane_matcher.h"
-#include "msc_vo/pose_estimation/plane_pose_factor.h"
+#include "msc_vo/pose_estimation/plane_factors.h"
 #include "msc_vo/tracking/dynamic_features.h"
 #include "msc_vo/tracking/frame_compensation.h"
 #include "msc_vo/tracking/pose_support.h"

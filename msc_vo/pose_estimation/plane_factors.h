@@ -3,8 +3,10 @@
 
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "msc_vo/bundle_adjustment/custom_factor.h"
 #include "msc_vo/frame/plane_feature.h"
 #include "msc_vo/map/plane_landmark.h"
 #include "msc_vo/pose_estimation/pose_factor.h"
@@ -16,5 +18,10 @@ namespace msc_vo {
 std::vector<PoseFactor> MakePlanePoseFactors(const std::vector<PlaneFeature>& features,
                                              const std::vector<PlaneMatch>& matches,
                                              const MapPlanes& map);
+
+/// The factor of a window between a keyframe and the extra block of a plane of the map, with
+/// PlaneManifold. `noise`: MapPlanes::noise.
+CustomFactor MakePlaneFactor(const PlaneFeature& feature, double noise, const BlockId& pose,
+                             const BlockId& plane);
 
 }  // namespace msc_vo

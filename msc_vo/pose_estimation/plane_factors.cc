@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/pose_estimation/plane_pose_factor.h"
+#include "msc_vo/pose_estimation/plane_factors.h"
 
 #include <algorithm>
 #include <memory>
@@ -35,23 +35,36 @@ class FixedPlaneObservation : public CostFunctor<FixedPlaneObservation, 3, 7> {
   Plane plane_;
 };
 
+PlaneObservation Observe(const PlaneFeature& feature, double noise) {
+  return {feature.inverse_depth, noise * noise * feature.covariance};
+}
+
+const std::shared_ptr<const ceres::LossFunction>& Loss() {
+  static const std::shared_ptr<const ceres::LossFunction> loss =
+      std::make_shared<ceres::HuberLoss>(kHuberThreshold[3]);
+  return loss;
+}
+
 }  // namespace
 
 std::vector<PoseFactor> MakePlanePoseFactors(const std::vector<PlaneFeature>& features,
                                              const std::vector<PlaneMatch>& matches,
                                              const MapPlanes& map) {
-  static const auto loss = std::make_shared<const ceres::HuberLoss>(kHuberThreshold[3]);
   std::vector<PoseFactor> factors;
   for (const PlaneMatch& match : matches) {
     const PlaneLandmark* plane = map.Find(match.plane);
     if (plane == nullptr) continue;
-    const PlaneFeature& feature = features[match.feature];
-    const PlaneObservation observation(feature.inverse_depth,
-                                       map.noise * map.noise * feature.covariance);
-    factors.push_back(
-        {"plane", FixedPlaneObservation::CreateShared(observation, plane->plane), loss});
+    factors.push_back({"plane",
+                       FixedPlaneObservation::CreateShared(
+                           Observe(features[match.feature], map.noise), plane->plane),
+                       Loss()});
   }
   return factors;
+}
+
+CustomFactor MakePlaneFactor(const PlaneFeature& feature, double noise, const BlockId& pose,
+                             const BlockId& plane) {
+  return {"plane", PlaneObservation::CreateShared(Observe(feature, noise)), Loss(), {pose, plane}};
 }
 
 }  // namespace msc_vo
