@@ -11,6 +11,6 @@ constexpr double kOutlierChiSquare[] = {0.0, 6.635, 9.210, 11.345, 13.277, 15.08
 
 /// Huber thresholds, in standard deviations, by the number of rows: square roots of the 95 %
 /// quantiles of chi-square.
-constexpr double kHuberThreshold[] = {0.0, 1.960, 2.448};
+constexpr double kHuberThreshold[] = {0.0, 1.960, 2.448, 2.795};
 
 }  // namespace msc_vo

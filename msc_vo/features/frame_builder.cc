@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -48,6 +49,7 @@ struct FrameBuilder::State {
   PointExtractor point_extractor;
   LineExtractor line_extractor;
   DepthSource depth;
+  std::optional<PlaneExtractor> planes;
   FrameBuilderTimes times;
   cv::Mat mask;              // of the image; empty: none
   cv::Mat distance_to_mask;  // of its pixels
@@ -60,7 +62,20 @@ struct FrameBuilder::State {
         intrinsics(std::make_shared<CameraIntrinsics>(CameraIntrinsics{c, distortion_in})),
         point_extractor(o.points),
         line_extractor(o.lines),
-        depth(o.depth_sensor, o.noise, o.min_depth, o.max_depth, c.width) {}
+        depth(o.depth_sensor, o.noise, o.min_depth, o.max_depth, c.width) {
+    ResetPlanes();
+  }
+
+  // For the present calibration.
+  void ResetPlanes() {
+    if (!options.extract_planes) return;
+    PlaneExtractorOptions of_planes;
+    of_planes.min_depth = options.min_depth;
+    of_planes.max_depth = options.max_depth;
+    of_planes.inverse_depth_noise = options.noise.inverse_depth_noise;
+    of_planes.common_sigma = options.noise.inverse_depth_sigma;
+    planes.emplace(of_planes, camera, distortion);
+  }
 
   // Points of a level at distorted pixels.
   std::vector<PointFeature> ExtractPoints(int level) {
@@ -174,6 +189,9 @@ Frame FrameBuilder::Build(const RgbdImage& image, const TaskRunner& run) {
     MeasureDepth(state_->options, state_->depth, state_->lens, &frame.lines);
     line_depth_ms = line_stopwatch.Restart();
   });
+  if (state_->planes) {
+    tasks.push_back([&] { frame.planes = state_->planes->Extract(image.depth); });
+  }
   for (size_t l = 0; l < levels.size(); ++l) {
     tasks.push_back([&, l] { levels[l] = state_->BuildPointLevel(static_cast<int>(l)); });
   }
@@ -204,6 +222,7 @@ void FrameBuilder::SetIntrinsics(const std::shared_ptr<const CameraIntrinsics>& 
   state_->distortion = intrinsics->distortion;
   state_->lens = LensRemap(intrinsics->camera, intrinsics->distortion);
   state_->intrinsics = intrinsics;
+  state_->ResetPlanes();
 }
 
 const FrameBuilderTimes& FrameBuilder::times() const { return state_->times; }

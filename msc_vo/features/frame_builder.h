@@ -11,6 +11,7 @@
 #include "msc_vo/camera/lens_distortion.h"
 #include "msc_vo/features/line_backprojection.h"
 #include "msc_vo/features/line_extractor.h"
+#include "msc_vo/features/plane_extractor.h"
 #include "msc_vo/features/point_extractor.h"
 #include "msc_vo/frame/frame.h"
 #include "msc_vo/geometry/line_fit.h"
@@ -28,6 +29,7 @@ struct FrameBuilderOptions {
   LineDepthMethod line_depth = LineDepthMethod::kRobustFit;
   double min_depth = 0.2;  ///< metres; depth outside [min_depth, max_depth] is invalid
   double max_depth = 10.0;
+  bool extract_planes = false;
 
   bool IsValid(std::string* error) const;
 };

@@ -16,6 +16,7 @@
 #include "msc_vo/frame/depth_ranges.h"
 #include "msc_vo/frame/feature_grid.h"
 #include "msc_vo/frame/line_feature.h"
+#include "msc_vo/frame/plane_feature.h"
 #include "msc_vo/frame/point_feature.h"
 #include "msc_vo/geometry/camera_velocity.h"
 
@@ -34,6 +35,7 @@ struct Frame {
   std::optional<LensDistortion> lens = {};
   std::vector<PointFeature> points;
   std::vector<LineFeature> lines;
+  std::vector<PlaneFeature> planes;
   FeatureGrid grid;  ///< over `points`
   /// With the calibration that the frame was built with, and without rolling-shutter compensation.
   /// A keyframe has none of dynamic surfaces.
@@ -59,7 +61,7 @@ struct Frame {
 
   template <typename Archive>
   void Serialize(Archive& archive) {
-    archive.Fields(*this, id, timestamp, camera, lens, points, lines, grid, depth_ranges,
+    archive.Fields(*this, id, timestamp, camera, lens, points, lines, planes, grid, depth_ranges,
                    intrinsics, velocity, readout_time);
   }
 };

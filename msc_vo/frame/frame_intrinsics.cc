@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
 namespace msc_vo {
 
 namespace {
@@ -46,6 +49,24 @@ std::shared_ptr<const CameraIntrinsics> ChangeCamera(const CameraIntrinsics& int
   return std::make_shared<const CameraIntrinsics>(changed);
 }
 
+// The planes that pixels with the same inverse depths show through another camera: with rays b = A
+// b' of the pixels, q . b = (A^T q) . b'.
+void MovePlanes(const PinholeCamera& from, const PinholeCamera& to,
+                std::vector<PlaneFeature>* planes) {
+  Eigen::Matrix3d a = Eigen::Matrix3d::Identity();
+  a(0, 0) = to.fx / from.fx;
+  a(0, 2) = (to.cx - from.cx) / from.fx;
+  a(1, 1) = to.fy / from.fy;
+  a(1, 2) = (to.cy - from.cy) / from.fy;
+  const Eigen::Matrix3d inverse = a.inverse();
+  for (PlaneFeature& plane : *planes) {
+    plane.inverse_depth = a.transpose() * plane.inverse_depth;
+    plane.covariance = a.transpose() * plane.covariance * a;
+    plane.mean_square_ray = inverse * plane.mean_square_ray * inverse.transpose();
+    for (Eigen::Vector2d& corner : plane.hull) corner = (inverse * corner.homogeneous()).head<2>();
+  }
+}
+
 }  // namespace
 
 std::shared_ptr<const Frame> ChangeIntrinsics(
@@ -57,6 +78,7 @@ std::shared_ptr<const Frame> ChangeIntrinsics(
   moved->camera = intrinsics->camera;
   if (moved->lens) moved->lens = intrinsics->distortion;
   if (intrinsics->registration && !from.registration) RemoveDepths(&*moved);
+  MovePlanes(from.camera, intrinsics->camera, &moved->planes);
   if (from.distortion.IsZero() && intrinsics->distortion.IsZero()) return moved;
   const auto move = [&](const Eigen::Vector2d& pixel, double* /*inverse_depth*/) {
     return MovePixel(from, *intrinsics, pixel);

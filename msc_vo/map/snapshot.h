@@ -13,6 +13,7 @@
 #include "msc_vo/map/inactive_maps.h"
 #include "msc_vo/map/map.h"
 #include "msc_vo/map/noise_scale.h"
+#include "msc_vo/map/plane_landmark.h"
 
 namespace msc_vo {
 
@@ -31,6 +32,7 @@ struct AxesEstimate {
 /// The immutable map after one keyframe step. Any thread may read it.
 struct MapSnapshot {
   Map map;
+  MapPlanes planes;
   int world = 0;  ///< number of the segment that began the world of the map
   KeyframeId newest_keyframe = kNoId;
   int num_loops = 0;          ///< closed in the run so far
@@ -51,7 +53,7 @@ struct MapSnapshot {
 
   template <typename Archive>
   void Serialize(Archive& archive) {
-    archive.Fields(*this, map, world, newest_keyframe, num_loops, noise_scale, readout_time,
+    archive.Fields(*this, map, planes, world, newest_keyframe, num_loops, noise_scale, readout_time,
                    intrinsics, axes, needs_axes, calibration_is_settled, inactive_maps,
                    extra_blocks);
   }

@@ -26,7 +26,7 @@ Atlas::Atlas(const SceneAxesOptions& axes, const NoiseEstimatorOptions& noise)
 }
 
 SubMap Atlas::MakeEmpty() const {
-  return {kNoSubMap, {}, SceneAxes(axes_), NoiseEstimator(noise_)};
+  return {kNoSubMap, {}, SceneAxes(axes_), NoiseEstimator(noise_), {}};
 }
 
 SubMap Atlas::Restored(SavedSubMap saved) const {
@@ -92,6 +92,7 @@ bool Atlas::Join(KeyframeId other, const Rigid3& current_from_other_world) {
     place->map.Transform(current_from_other_world);
   }
   current_.map.Merge(place->map);
+  current_.planes.Join(std::move(place->planes));
   inactive_maps_.erase(inactive_maps_.begin() + (place - inactive_.begin()));
   inactive_.erase(place);
   return true;

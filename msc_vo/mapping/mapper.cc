@@ -116,6 +116,8 @@ void Mapper::Create(KeyframeTask* task) {
   Timed(&summary.times.creation, [&] {
     inserter_.Insert(task->packet_, std::exchange(task->frame_, nullptr), &atlas_, &summary);
     care_.Renew(summary.keyframe, &atlas_.current().map);
+    SubMap& submap = atlas_.current();
+    submap.planes.AddKeyframe(submap.map, summary.keyframe);
   });
 }
 
@@ -181,7 +183,11 @@ void Mapper::Calibrate(KeyframeTask* task) {
 void Mapper::Cull(KeyframeTask* task) {
   MappingSummary& summary = task->summary_;
   summary.num_culled_keyframes = Timed(&summary.times.culling, [&] {
-    return care_.CullKeyframes(summary.keyframe, &atlas_.current().map);
+    SubMap& submap = atlas_.current();
+    const MapPlanes planes = submap.planes.InWorld(submap.map);
+    const int num_culled = care_.CullKeyframes(summary.keyframe, &submap.map);
+    if (num_culled > 0) submap.planes.Renew(planes, submap.map);
+    return num_culled;
   });
   assert(FirstViolation(map()).empty());
 }
@@ -197,6 +203,7 @@ MapSnapshotPtr Mapper::Snapshot() {
   SubMap& submap = atlas_.current();
   auto snapshot = std::make_shared<MapSnapshot>();
   snapshot->map = submap.map.Share();
+  snapshot->planes = submap.planes.InWorld(submap.map);
   snapshot->world = submap.id;
   snapshot->inactive_maps = atlas_.inactive_maps();
   snapshot->newest_keyframe = inserter_.newest();
@@ -219,6 +226,7 @@ void Mapper::ApplyCalibration(KeyframeId newest) {
     if (is_of_earlier_session) return;
     submap->axes = SceneAxes(options_.axes);
     submap->noise = NoiseEstimator(options_.noise);
+    submap->planes = PlaneMap();
   });
   SubMap& submap = atlas_.current();
   optimizer_.OptimizeMap(newest, &submap);

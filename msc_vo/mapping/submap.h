@@ -4,6 +4,7 @@
 #pragma once
 
 #include "msc_vo/map/map.h"
+#include "msc_vo/mapping/plane_map.h"
 #include "msc_vo/self_calibration/noise_estimator.h"
 #include "msc_vo/structure/scene_axes.h"
 
@@ -20,11 +21,12 @@ struct SubMap {
   Map map;
   SceneAxes axes;        ///< of its world
   NoiseEstimator noise;  ///< of the measurements in it
+  PlaneMap planes;
 
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    archive.Fields(*this, id, map, axes, noise);
+    archive.Fields(*this, id, map, axes, noise, planes);
   }
 };
 

@@ -30,8 +30,9 @@ bool WindowOptimizer::IsDue(double timestamp) const {
 
 std::unique_ptr<WindowTask> WindowOptimizer::BeginWindow(KeyframeId keyframe, SubMap* submap) {
   if (!IsDue(submap->map.FindKeyframe(keyframe)->frame->timestamp)) return nullptr;
+  const bool has_other_links = factor_callback_ || !submap->planes.empty();
   const WindowLinks links =
-      factor_callback_ ? WindowLinks::kLandmarksAndTime : WindowLinks::kLandmarks;
+      has_other_links ? WindowLinks::kLandmarksAndTime : WindowLinks::kLandmarks;
   return Begin(options_.window, keyframe,
                SelectWindow(options_.selection, submap->map, keyframe, links), submap);
 }
@@ -65,7 +66,9 @@ std::unique_ptr<WindowTask> WindowOptimizer::Begin(const BundleAdjustmentOptions
   const PairCandidates pairs = pairs_.Find(window);
   pairs_.Learn(pairs);
   pairs_.Add(pairs, &window);
-  AddCustomFactors(*submap, &window);
+  if (factor_callback_) AddCustomFactors(*submap, &window);
+  submap->planes.AddTo(submap->map, &window);
+  if (factor_callback_ || !window.custom_factors.empty()) FixUnlinkedKeyframes(&window);
   if (observer_) observer_(keyframe, options, window);
   return std::unique_ptr<WindowTask>(new WindowTask(options, std::move(window)));
 }
@@ -76,7 +79,10 @@ void WindowOptimizer::WriteResult(const WindowTask& task, SubMap* submap) {
   submap->noise.Update(WindowResiduals(window));
   WriteBack(window, &submap->map);
   submap->axes.Learn(submap->map, window);
-  for (const ExtraBlock& block : window.extra_blocks) extra_blocks_[block.id] = block;
+  submap->planes.Learn(submap->map, window);
+  for (const ExtraBlock& block : window.extra_blocks) {
+    if (block.id >= PlaneMap::kFirstBlock) extra_blocks_[block.id] = block;
+  }
 }
 
 std::vector<ExtraBlock> WindowOptimizer::extra_blocks() const {
@@ -86,13 +92,16 @@ std::vector<ExtraBlock> WindowOptimizer::extra_blocks() const {
 }
 
 void WindowOptimizer::AddCustomFactors(const SubMap& submap, WindowData* window) const {
-  if (!factor_callback_) return;
   const AxesEstimator& axes = submap.axes.estimator();
   if (axes.state() != AxesState::kNone) window->axes = {axes.world_from_axes(), true};
   WindowContext context = MakeWindowContext(submap.map, *window, extra_blocks());
   context.world = submap.id;
   WindowFactors custom = factor_callback_(context);
   for (ExtraBlock& block : custom.extra_blocks) {
+    if (block.id < PlaneMap::kFirstBlock) {
+      throw std::invalid_argument("extra block " + std::to_string(block.id) +
+                                  ": ids below -2^62 are those of planes");
+    }
     const auto known = extra_blocks_.find(block.id);
     if (known == extra_blocks_.end()) continue;
     if (block.value.size() != known->second.value.size()) {
@@ -105,7 +114,6 @@ void WindowOptimizer::AddCustomFactors(const SubMap& submap, WindowData* window)
   }
   window->extra_blocks = std::move(custom.extra_blocks);
   window->custom_factors = std::move(custom.factors);
-  FixUnlinkedKeyframes(window);
 }
 
 }  // namespace msc_vo

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "msc_vo/frame/frame_intrinsics.h"
+#include "msc_vo/pose_estimation/plane_factors.h"
 #include "msc_vo/self_calibration/keyframe_rolling_shutter.h"
 #include "msc_vo/tracking/frame_pose.h"
 #include "msc_vo/tracking/tracked_frame.h"
@@ -74,6 +75,10 @@ void PoseRefiner::Add(int index, const TrackedFrame& tracked) {
       pending.landmarks.Of<L>().push_back(match.id);
     }
   });
+  for (const PlaneMatch& match : tracked.planes) {
+    pending.planes.push_back({static_cast<int>(frame->planes.size()), match.plane});
+    frame->planes.push_back(tracked.frame->planes[match.feature]);
+  }
   pending.frame = std::move(frame);
   frames_.push_back(std::move(pending));
 }
@@ -114,8 +119,12 @@ void PoseRefiner::RefineFrame(const PendingFrame& pending, const MapSnapshot& sn
   const int num_expected = NumExpected(pending, *frame, matches);
   const Rigid3 reference_from_world = map->CamFromWorld(pose->reference);
   Rigid3 cam_from_world = pose->cam_from_reference * reference_from_world;
-  const PoseSummary summary = EstimateFramePose(options_, *frame, *map, snapshot.noise_scale, {},
-                                                &cam_from_world, &matches);
+  std::vector<PoseFactor> by_planes;
+  if (map == &snapshot.map) {
+    by_planes = MakePlanePoseFactors(frame->planes, pending.planes, snapshot.planes);
+  }
+  const PoseSummary summary = EstimateFramePose(options_, *frame, *map, snapshot.noise_scale,
+                                                by_planes, &cam_from_world, &matches);
   if (!summary.usable || 2 * Sum(summary.num_inliers) < num_expected) return;
   pose->cam_from_reference = cam_from_world * reference_from_world.Inverse();
 }

@@ -48,10 +48,11 @@ class PoseRefiner {
     KeyframeId reference = kNoId;
     std::shared_ptr<const Frame> frame;          // with the matched features alone
     PerKind<std::vector<LandmarkId>> landmarks;  // one per feature
+    std::vector<PlaneMatch> planes;
 
     template <typename Archive>
     void Serialize(Archive& archive) {
-      archive.Fields(*this, index, reference, frame, landmarks);
+      archive.Fields(*this, index, reference, frame, landmarks, planes);
     }
   };
 

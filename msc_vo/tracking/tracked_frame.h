@@ -12,6 +12,7 @@
 #include "msc_vo/geometry/rigid3.h"
 #include "msc_vo/map/landmark_kinds.h"
 #include "msc_vo/map/last_tracked_pose.h"
+#include "msc_vo/map/plane_landmark.h"
 #include "msc_vo/matching/frame_matches.h"
 #include "msc_vo/matching/revisit.h"
 #include "msc_vo/pose_estimation/pose_optimization.h"
@@ -60,8 +61,9 @@ struct TrackedFrame {
   /// Motion since the last frame whose pose was estimated, or that began a new part of the map, in
   /// the snapshot; predicted if the pose is. std::nullopt: unknown, because the frame begins a map.
   std::optional<Rigid3> cam_from_last;
-  bool is_implausible = false;  ///< the pose follows a gap, and its motion is not plausible
-  FrameMatches matches;         ///< inliers among the landmarks
+  bool is_implausible = false;     ///< the pose follows a gap, and its motion is not plausible
+  FrameMatches matches;            ///< inliers among the landmarks
+  std::vector<PlaneMatch> planes;  ///< matched with those of the map
   /// Its dynamic matches and cells are those of the pose optimisation that found most of them.
   PoseSummary pose;
   /// Landmarks that were predicted to be visible, matched ones included; for culling.

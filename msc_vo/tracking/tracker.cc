@@ -3,10 +3,15 @@
 
 #include "msc_vo/tracking/tracker.h"
 
+#include <cmath>
 #include <stdexcept>
+#include <utility>
 
+#include "msc_vo/factors/pose_prior.h"
 #include "msc_vo/frame/feature_counts.h"
 #include "msc_vo/matching/local_map.h"
+#include "msc_vo/matching/plane_matcher.h"
+#include "msc_vo/pose_estimation/plane_factors.h"
 #include "msc_vo/tracking/dynamic_features.h"
 #include "msc_vo/tracking/frame_compensation.h"
 #include "msc_vo/tracking/pose_support.h"
@@ -77,7 +82,8 @@ TrackedFrame Tracker::TrackFrame(const std::shared_ptr<const Frame>& raw,
   const std::optional<InitialPose> initial = FindInitialPose(
       options_, *input.frame, last_, input.prediction, keyframes_to_try, &estimator);
   TrackedFrame tracked = initial ? TrackInMap(input, *initial, &estimator) : TrackInGap(input);
-  tracked.has_pose_factors = !pose_factors_.empty();
+  tracked.has_pose_factors = input.has_custom_factors;
+  tracked.planes = input.planes;
   tracked.times = estimator.times();
   return tracked;
 }
@@ -99,6 +105,7 @@ TrackedFrame Tracker::TrackInMap(const Input& input, const InitialPose& initial,
 }
 
 TrackedFrame Tracker::TrackInGap(const Input& input) {
+  if (input.is_held_by_planes) return TrackByPlanes(input);
   const Map& map = input.snapshot.map;
   in_gap_ = true;
   TrackedFrame tracked = BridgeWithPrediction(input);
@@ -110,10 +117,23 @@ TrackedFrame Tracker::TrackInGap(const Input& input) {
   return tracked;
 }
 
+TrackedFrame Tracker::TrackByPlanes(const Input& input) {
+  TrackedFrame tracked = BridgeWithPrediction(input);
+  tracked.status = ClassifyStatus(options_, tracked.pose);
+  const bool is_certain = tracked.status == TrackingStatus::kTracked;
+  if (is_certain && policy_.IsDue(*input.frame, tracked.matches, is_certain)) {
+    tracked.keyframe.id = MakeKeyframe(input.frame->timestamp);
+  }
+  in_gap_ = false;
+  segment_start_.Tracked(input.frame->timestamp);
+  Follow(&tracked);
+  return tracked;
+}
+
 TrackedFrame Tracker::Initialize(const std::shared_ptr<const Frame>& frame) {
   TrackedFrame tracked;
   tracked.frame = frame;
-  if (CanBeginMap(*frame, options_.min_initial_features)) {
+  if (CanBeginMap(*frame, options_.min_initial_features) || DetermineAPose(frame->planes)) {
     StartSegment(SegmentStart::kFirst, &tracked);
   }
   return tracked;
@@ -139,6 +159,7 @@ void Tracker::StartSegment(SegmentStart start, TrackedFrame* tracked) {
   tracked->keyframe.segment_start = start;
   tracked->keyframe.id = MakeKeyframe(timestamp);
   motion_.Reset(timestamp);
+  last_determined_ = timestamp;
   plausibility_ = PosePlausibility();
   in_gap_ = false;
   segment_start_.Started(timestamp);
@@ -151,7 +172,7 @@ Tracker::Input Tracker::Predict(const std::shared_ptr<const Frame>& raw,
   last_.UpdateTo(snapshot);
   const double timestamp = raw->timestamp;
   const double readout_time = CompensationReadoutTime(snapshot);
-  Input input{snapshot, raw, raw, last_.CamFromWorld(snapshot.map), {}};
+  Input input{snapshot, raw, raw, last_.CamFromWorld(snapshot.map), {}, {}};
   if (readout_time != 0.0) {
     input.frame = CompensateFrame(raw, motion_.VelocityAt(timestamp), readout_time);
   }
@@ -162,12 +183,41 @@ Tracker::Input Tracker::Predict(const std::shared_ptr<const Frame>& raw,
     pose_factors_ = pose_factor_callback_({timestamp, last_.frame->timestamp, input.last_from_world,
                                            predicted, snapshot.world, snapshot.extra_blocks});
   }
+  input.has_custom_factors = !pose_factors_.empty();
+  const bool uses_planes = AddPlanes(&input);
   if (pose_factors_.empty()) return input;
+  std::vector<PoseFactor> factors = pose_factors_;
+  if (uses_planes && !input.has_custom_factors) factors.push_back(MotionPrior(input));
   FrameMatches none;
-  input.prediction.by_factors =
-      EstimateFramePose(options_.pose, *input.frame, snapshot.map, snapshot.noise_scale,
-                        pose_factors_, &predicted, &none);
+  input.prediction.by_factors = EstimateFramePose(options_.pose, *input.frame, snapshot.map,
+                                                  snapshot.noise_scale, factors, &predicted, &none);
+  input.is_held_by_planes = uses_planes && input.prediction.by_factors.usable;
   return input;
+}
+
+// After a gap, a prediction does not tell parallel planes apart.
+bool Tracker::AddPlanes(Input* input) {
+  const bool follows =
+      !in_gap_ && input->frame->timestamp - last_.frame->timestamp <= options_.max_prediction;
+  if (!follows) return false;
+  const MapPlanes& map = input->snapshot.planes;
+  input->planes = MatchPlanes(input->frame->planes, map, input->prediction.cam_from_world);
+  for (PoseFactor& factor : MakePlanePoseFactors(input->frame->planes, input->planes, map)) {
+    pose_factors_.push_back(std::move(factor));
+  }
+  return !input->planes.empty();
+}
+
+// What is known of the pose where planes leave it free: the prediction, with sigmas that grow since
+// the last frame that was determined.
+PoseFactor Tracker::MotionPrior(const Input& input) const {
+  // The camera may stop or turn at any time: of hand-held cameras, metres and radians per second.
+  constexpr double kSpeedSigma = 0.5, kTurnSigma = 1.0;
+  const double seconds = input.frame->timestamp - last_determined_;
+  PoseCovariance covariance = PoseCovariance::Identity();
+  covariance.topLeftCorner<3, 3>() *= std::pow(kTurnSigma * seconds, 2);
+  covariance.bottomRightCorner<3, 3>() *= std::pow(kSpeedSigma * seconds, 2);
+  return {"motion", PosePrior::CreateShared(input.prediction.cam_from_world, covariance), nullptr};
 }
 
 TrackedFrame Tracker::BridgeWithPrediction(const Input& input) const {
@@ -269,6 +319,7 @@ KeyframeId Tracker::MakeKeyframe(double timestamp) {
 
 void Tracker::Follow(TrackedFrame* tracked) {
   const double timestamp = tracked->frame->timestamp;
+  if (tracked->status == TrackingStatus::kTracked) last_determined_ = timestamp;
   if (timestamp - last_.frame->timestamp > options_.max_prediction) {
     motion_.Reset(timestamp);
   } else {

@@ -62,9 +62,9 @@ std::optional<double> Scene::CastRay(const Eigen::Vector3d& origin,
 }
 
 const std::vector<std::string>& SceneKindNames() {
-  static const std::vector<std::string> names = {"room",   "corridor", "bare",  "slanted",
-                                                 "house",  "box",      "rooms", "mirrored",
-                                                 "floors", "desks"};
+  static const std::vector<std::string> names = {
+      "room",     "corridor", "bare",  "slanted", "house",  "box",      "rooms",
+      "mirrored", "floors",   "desks", "blank",   "zigzag", "dead-end", "poster"};
   return names;
 }
 
@@ -104,6 +104,14 @@ Scene MakeWithTour(SceneKind kind, uint64_t seed, const WalkOptions& walk) {
       return MakeFloors(seed, walk);
     case SceneKind::kDesks:
       return MakeDesks(seed, walk);
+    case SceneKind::kBlank:
+      return MakeBlank(seed);
+    case SceneKind::kZigZag:
+      return MakeZigZag(seed);
+    case SceneKind::kDeadEnd:
+      return MakeDeadEnd(seed);
+    case SceneKind::kPoster:
+      return MakePoster(seed);
   }
   return {};
 }

@@ -111,6 +111,11 @@ enum class SceneKind {
   kMirrored,  ///< rooms that mirror each other across a corridor and along it
   kFloors,    ///< two identical floors, connected by a lift shaft
   kDesks,     ///< identical desks with identical objects in one hall
+  // Blank surfaces, which points and lines hardly hold.
+  kBlank,    ///< a room of walls, floor and ceiling, nothing else
+  kZigZag,   ///< zigzag walls so close that the image shows little else
+  kDeadEnd,  ///< a corridor that is walked towards its blank end
+  kPoster,   ///< a blank wall with one poster
 };
 
 /// The names of all kinds, in their order: "room", "corridor", ...

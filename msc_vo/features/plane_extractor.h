@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+
+#include "msc_vo/camera/lens_distortion.h"
+#include "msc_vo/frame/plane_feature.h"
+
+namespace msc_vo {
+
+struct PlaneExtractorOptions {
+  double min_depth = 0.2;  ///< metres; depth outside [min_depth, max_depth] is invalid
+  double max_depth = 10.0;
+  /// Standard deviation of the random part of inverse depth, 1/metres.
+  double inverse_depth_noise = 0.002;
+  /// Standard deviation of the errors that all pixels of a plane have in common, 1/metres.
+  double common_sigma = 0.002;
+  /// Smallest part of the image that a plane covers.
+  double min_ratio = 0.02;
+
+  bool IsValid(std::string* error) const;
+};
+
+/// Extracts planes from a depth image by region growing: a plane is fitted to the inverse depths of
+/// each cell of a grid; beginning with the flattest cell, a region takes in the neighbours that lie
+/// on its plane. Keeps its buffers between calls; not thread-safe.
+class PlaneExtractor {
+ public:
+  /// `distortion` is that of the raw depth image. Throws std::invalid_argument on invalid options
+  /// or an invalid camera.
+  PlaneExtractor(const PlaneExtractorOptions& options, const PinholeCamera& camera,
+                 const LensDistortion& distortion);
+  ~PlaneExtractor();
+
+  /// `depth`: raw image, CV_32FC1, metres along the optical axis, 0 where nothing was measured.
+  /// Returns the planes, largest first. Throws std::invalid_argument if type or size of the image
+  /// do not match the camera.
+  std::vector<PlaneFeature> Extract(const cv::Mat& depth);
+
+ private:
+  struct Cell;
+
+  void FitCells(const cv::Mat& depth);
+  Cell FitCell(const cv::Mat& depth, int column, int row) const;
+  std::vector<int> Grow(int seed, Cell* region);
+  bool LiesOn(const Cell& cell, const Eigen::Vector3d& inverse_depth) const;
+  PlaneFeature MakeFeature(const std::vector<int>& cells, const Cell& region) const;
+
+  PlaneExtractorOptions options_;
+  PinholeCamera camera_;
+  int cell_size_ = 0;  // pixels
+  int step_ = 0;       // between the pixels that are used
+  int columns_ = 0, rows_ = 0;
+  double correlation_area_ = 0.0;      // pixels that share one error
+  std::vector<Eigen::Vector2f> rays_;  // x / z and y / z of the pixels that are used
+  std::vector<Cell> cells_;
+};
+
+}  // namespace msc_vo

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace msc_vo {
+
+/// A plane of a depth image. With a ray b = (x / z, y / z, 1) of the undistorted camera, the
+/// inverse depth on a plane {x : n . x + d = 0} is linear, 1 / z = q . b with q = -n / d: q is
+/// the plane as the sensor measures it, whose noise is that of inverse depth.
+struct PlaneFeature {
+  Eigen::Vector3d inverse_depth = Eigen::Vector3d::Zero();  ///< q, 1/metres
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();     ///< of q, 1/metres^2
+  /// Mean of b b^T over its pixels: (p - q)^T M (p - q) is the mean squared difference in inverse
+  /// depth between two planes where this one was seen.
+  Eigen::Matrix3d mean_square_ray = Eigen::Matrix3d::Zero();
+  int num_pixels = 0;
+  std::vector<Eigen::Vector2d> hull;  ///< convex hull of its pixels, x / z and y / z
+
+  /// Unit normal towards the camera, and the distance of the camera from the plane, metres.
+  Eigen::Vector3d Normal() const { return -inverse_depth.normalized(); }
+  double Distance() const { return 1.0 / inverse_depth.norm(); }
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, inverse_depth, covariance, mean_square_ray, num_pixels, hull);
+  }
+};
+
+}  // namespace msc_vo

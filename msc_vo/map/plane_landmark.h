@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "msc_vo/geometry/plane.h"
+#include "msc_vo/map/landmark.h"
+
+namespace msc_vo {
+
+/// A plane of the map.
+struct PlaneLandmark {
+  LandmarkId id = kNoId;
+  Plane plane;  ///< world
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, id, plane);
+  }
+};
+
+/// The planes of a map, as a snapshot has them.
+struct MapPlanes {
+  std::vector<PlaneLandmark> planes;  ///< in order of their ids
+  double noise = 1.0;                 ///< scale of the sigmas of plane features, self-calibrated
+
+  /// Returns nullptr if there is none.
+  const PlaneLandmark* Find(LandmarkId id) const {
+    const auto found =
+        std::lower_bound(planes.begin(), planes.end(), id,
+                         [](const PlaneLandmark& plane, LandmarkId x) { return plane.id < x; });
+    return found == planes.end() || found->id != id ? nullptr : &*found;
+  }
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, planes, noise);
+  }
+};
+
+/// The plane feature of a frame is a plane of the map.
+struct PlaneMatch {
+  int feature = -1;
+  LandmarkId plane = kNoId;
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, feature, plane);
+  }
+};
+
+}  // namespace msc_vo

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/mapping/plane_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "msc_vo/factors/plane_manifold.h"
+#include "msc_vo/factors/plane_observation.h"
+#include "msc_vo/matching/plane_matcher.h"
+#include "msc_vo/pose_estimation/plane_factors.h"
+
+namespace msc_vo {
+
+namespace {
+
+// Median of chi-square with three degrees of freedom.
+constexpr double kMedianChiSquare3 = 2.366;
+// Weight of a window in the learnt noise: that of the last ten windows or so.
+constexpr double kLearningRate = 0.1;
+// Residuals that a window needs to tell the noise.
+constexpr size_t kMinResiduals = 10;
+// Bounds of the learnt scale of sigmas.
+constexpr double kMinNoise = 0.1, kMaxNoise = 10.0;
+
+BlockId BlockOf(LandmarkId plane) { return BlockId::Extra(PlaneMap::kFirstBlock - 1 - plane); }
+LandmarkId PlaneOf(const ExtraBlock& block) { return PlaneMap::kFirstBlock - 1 - block.id; }
+bool IsPlane(const ExtraBlock& block) { return block.id < PlaneMap::kFirstBlock; }
+
+// Squared residual of a keyframe's observation, with the sigmas of the feature; infinite if it is
+// not defined.
+double SquaredResidual(const PlaneFeature& feature, const Rigid3& cam_from_world,
+                       const Plane& plane) {
+  Eigen::Vector3d residual;
+  const PlaneObservation observation(feature.inverse_depth, feature.covariance);
+  return observation(cam_from_world.params.data(), plane.params.data(), residual.data())
+             ? residual.squaredNorm()
+             : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+void PlaneMap::AddKeyframe(const Map& map, KeyframeId keyframe) {
+  const Keyframe& added = *map.FindKeyframe(keyframe);
+  const std::vector<PlaneFeature>& features = added.frame->planes;
+  if (features.empty()) return;
+  std::vector<PlaneMatch> matches = MatchPlanes(features, InWorld(map), added.cam_from_world);
+  std::vector<bool> is_known(features.size(), false);
+  for (const PlaneMatch& match : matches) is_known[match.feature] = true;
+  for (size_t i = 0; i < features.size(); ++i) {
+    if (is_known[i]) continue;
+    planes_[next_] = {keyframe, Plane(features[i].Normal(), features[i].Distance())};
+    matches.push_back({static_cast<int>(i), next_++});
+  }
+  keyframes_[keyframe] = std::move(matches);
+}
+
+void PlaneMap::Renew(const MapPlanes& before, const Map& map) {
+  std::map<LandmarkId, KeyframeId> observers;  // the newest of each plane
+  for (auto keyframe = keyframes_.begin(); keyframe != keyframes_.end();) {
+    if (map.FindKeyframe(keyframe->first) == nullptr) {
+      keyframe = keyframes_.erase(keyframe);
+      continue;
+    }
+    for (const PlaneMatch& match : keyframe->second) observers[match.plane] = keyframe->first;
+    ++keyframe;
+  }
+  for (auto plane = planes_.begin(); plane != planes_.end();) {
+    const auto observer = observers.find(plane->first);
+    const PlaneLandmark* in_world = before.Find(plane->first);
+    if (observer == observers.end() || in_world == nullptr) {
+      plane = planes_.erase(plane);
+      continue;
+    }
+    HostedPlane& hosted = plane->second;
+    if (map.FindKeyframe(hosted.host) == nullptr) {
+      hosted = {observer->second, map.CamFromWorld(observer->second) * in_world->plane};
+    }
+    ++plane;
+  }
+}
+
+void PlaneMap::Join(PlaneMap other) {
+  for (auto& [id, plane] : other.planes_) planes_[next_ + id] = plane;
+  for (auto& [keyframe, matches] : other.keyframes_) {
+    for (PlaneMatch& match : matches) match.plane += next_;
+    keyframes_[keyframe] = std::move(matches);
+  }
+  next_ += other.next_;
+}
+
+void PlaneMap::AddTo(const Map& map, WindowData* window) const {
+  std::map<LandmarkId, int> num_observers;
+  for (const WindowData::Keyframe& keyframe : window->keyframes) {
+    const auto seen = keyframes_.find(keyframe.id);
+    if (seen == keyframes_.end()) continue;
+    for (const PlaneMatch& match : seen->second) ++num_observers[match.plane];
+  }
+  static const auto manifold = std::make_shared<const PlaneManifold>();
+  const MapPlanes in_world = InWorld(map);
+  for (const WindowData::Keyframe& keyframe : window->keyframes) {
+    const auto seen = keyframes_.find(keyframe.id);
+    if (seen == keyframes_.end()) continue;
+    const std::vector<PlaneFeature>& features = map.FindKeyframe(keyframe.id)->frame->planes;
+    for (const PlaneMatch& match : seen->second) {
+      const PlaneLandmark* plane = in_world.Find(match.plane);
+      if (num_observers[match.plane] < 2 || plane == nullptr) continue;
+      const PlaneFeature& feature = features[match.feature];
+      if (!std::isfinite(SquaredResidual(feature, keyframe.cam_from_world, plane->plane))) continue;
+      window->custom_factors.push_back(
+          MakePlaneFactor(feature, noise_, BlockId::Pose(keyframe.id), BlockOf(match.plane)));
+    }
+  }
+  for (const auto& [id, count] : num_observers) {
+    const PlaneLandmark* plane = in_world.Find(id);
+    if (count < 2 || plane == nullptr) continue;
+    window->extra_blocks.push_back({BlockOf(id).id, plane->plane.params, manifold});
+  }
+}
+
+void PlaneMap::Learn(const Map& map, const WindowData& window) {
+  std::map<LandmarkId, Plane> estimates;
+  for (const ExtraBlock& block : window.extra_blocks) {
+    if (!IsPlane(block)) continue;
+    Plane plane;
+    plane.params = block.value;
+    estimates[PlaneOf(block)] = plane;
+    const auto known = planes_.find(PlaneOf(block));
+    if (known == planes_.end()) continue;
+    known->second.in_host = map.CamFromWorld(known->second.host) * plane;
+  }
+  std::vector<double> squares;
+  for (const WindowData::Keyframe& keyframe : window.keyframes) {
+    const auto seen = keyframes_.find(keyframe.id);
+    if (seen == keyframes_.end()) continue;
+    for (const PlaneMatch& match : seen->second) {
+      const auto plane = estimates.find(match.plane);
+      if (plane == estimates.end()) continue;
+      squares.push_back(SquaredResidual(map.FindKeyframe(keyframe.id)->frame->planes[match.feature],
+                                        keyframe.cam_from_world, plane->second));
+    }
+  }
+  if (squares.size() < kMinResiduals) return;
+  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+  std::nth_element(squares.begin(), middle, squares.end());
+  const double of_window = std::sqrt(*middle / kMedianChiSquare3);
+  noise_ =
+      std::clamp((1.0 - kLearningRate) * noise_ + kLearningRate * of_window, kMinNoise, kMaxNoise);
+}
+
+MapPlanes PlaneMap::InWorld(const Map& map) const {
+  MapPlanes result;
+  result.noise = noise_;
+  for (const auto& [id, plane] : planes_) {
+    const Keyframe* host = map.FindKeyframe(plane.host);
+    if (host == nullptr) continue;
+    result.planes.push_back({id, host->cam_from_world.Inverse() * plane.in_host});
+  }
+  return result;
+}
+
+}  // namespace msc_vo

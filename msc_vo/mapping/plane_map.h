@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "msc_vo/bundle_adjustment/window_data.h"
+#include "msc_vo/map/map.h"
+#include "msc_vo/map/plane_landmark.h"
+
+namespace msc_vo {
+
+/// The planes of a submap and the keyframes that observe them. A plane is kept in the camera frame
+/// of one of these keyframes, its host, and moves with it when the map is corrected. In a window,
+/// planes are extra blocks with ids below kFirstBlock, tied to the keyframes by PlaneObservation.
+class PlaneMap {
+ public:
+  /// Ids of extra blocks below this one are planes.
+  static constexpr int64_t kFirstBlock = -(int64_t{1} << 62);
+
+  /// Matches the planes of a keyframe of the map, and adds those that are new.
+  void AddKeyframe(const Map& map, KeyframeId keyframe);
+  /// Forgets keyframes that were culled, and the planes that only they observed. `before`: the
+  /// planes before the culling.
+  void Renew(const MapPlanes& before, const Map& map);
+  /// Takes over the planes of a map that was joined with that of this one; the keyframes of both
+  /// are in one map now.
+  void Join(PlaneMap other);
+
+  /// Adds the planes that two or more keyframes of the window observe.
+  void AddTo(const Map& map, WindowData* window) const;
+  /// Takes over the estimates of a solved window whose keyframes have been written to the map, and
+  /// learns the noise from its residuals.
+  void Learn(const Map& map, const WindowData& window);
+
+  /// The planes in the world of the map.
+  MapPlanes InWorld(const Map& map) const;
+  bool empty() const { return planes_.empty(); }
+
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    auto& [planes, keyframes, next, noise] = *this;  // all members, or it does not compile
+    archive(planes, keyframes, next, noise);
+  }
+
+ private:
+  struct HostedPlane {
+    KeyframeId host = kNoId;
+    Plane in_host;
+
+    template <typename Archive>
+    void Serialize(Archive& archive) {
+      archive.Fields(*this, host, in_host);
+    }
+  };
+
+  std::map<LandmarkId, HostedPlane> planes_;
+  std::map<KeyframeId, std::vector<PlaneMatch>> keyframes_;
+  LandmarkId next_ = 0;
+  double noise_ = 1.0;
+};
+
+}  // namespace msc_vo

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <vector>
+
+#include "msc_vo/frame/plane_feature.h"
+#include "msc_vo/geometry/rigid3.h"
+#include "msc_vo/map/plane_landmark.h"
+
+namespace msc_vo {
+
+/// Matches the planes of a frame with those of the map by their geometry, from a predicted pose: a
+/// feature is the plane whose inverse depths are nearest to it where it was seen. Parts of one wall
+/// are matched with the same plane.
+std::vector<PlaneMatch> MatchPlanes(const std::vector<PlaneFeature>& features, const MapPlanes& map,
+                                    const Rigid3& cam_from_world);
+
+/// Whether planes with these normals hold a camera in all directions, and not one plane alone or
+/// parallels of two.
+bool DetermineAPose(const std::vector<PlaneFeature>& features);
+
+}  // namespace msc_vo

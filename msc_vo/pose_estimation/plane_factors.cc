@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/pose_estimation/plane_factors.h"
+
+#include <algorithm>
+#include <memory>
+
+#include <ceres/loss_function.h>
+
+#include "msc_vo/factors/chi_square.h"
+#include "msc_vo/factors/plane_observation.h"
+
+namespace msc_vo {
+
+namespace {
+
+// A PlaneObservation of a plane that is held fixed, 3 rows. Poses that are tried far from the truth
+// may be behind the plane: there the factor is constant, and beyond every test.
+class FixedPlaneObservation : public CostFunctor<FixedPlaneObservation, 3, 7> {
+ public:
+  FixedPlaneObservation(const PlaneObservation& observation, const Plane& plane)
+      : observation_(observation), plane_(plane) {}
+
+  template <typename T>
+  bool operator()(const T* cam_from_world, T* residuals) const {
+    const Eigen::Matrix<T, 4, 1> plane = plane_.params.cast<T>();
+    if (observation_(cam_from_world, plane.data(), residuals)) return true;
+    std::fill(residuals, residuals + kNumResiduals, T(1e3));
+    return true;
+  }
+
+ private:
+  PlaneObservation observation_;
+  Plane plane_;
+};
+
+PlaneObservation Observe(const PlaneFeature& feature, double noise) {
+  return {feature.inverse_depth, noise * noise * feature.covariance};
+}
+
+const std::shared_ptr<const ceres::LossFunction>& Loss() {
+  static const std::shared_ptr<const ceres::LossFunction> loss =
+      std::make_shared<ceres::HuberLoss>(kHuberThreshold[3]);
+  return loss;
+}
+
+}  // namespace
+
+std::vector<PoseFactor> MakePlanePoseFactors(const std::vector<PlaneFeature>& features,
+                                             const std::vector<PlaneMatch>& matches,
+                                             const MapPlanes& map) {
+  std::vector<PoseFactor> factors;
+  for (const PlaneMatch& match : matches) {
+    const PlaneLandmark* plane = map.Find(match.plane);
+    if (plane == nullptr) continue;
+    factors.push_back({"plane",
+                       FixedPlaneObservation::CreateShared(
+                           Observe(features[match.feature], map.noise), plane->plane),
+                       Loss()});
+  }
+  return factors;
+}
+
+CustomFactor MakePlaneFactor(const PlaneFeature& feature, double noise, const BlockId& pose,
+                             const BlockId& plane) {
+  return {"plane", PlaneObservation::CreateShared(Observe(feature, noise)), Loss(), {pose, plane}};
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "msc_vo/bundle_adjustment/custom_factor.h"
+#include "msc_vo/frame/plane_feature.h"
+#include "msc_vo/map/plane_landmark.h"
+#include "msc_vo/pose_estimation/pose_factor.h"
+
+namespace msc_vo {
+
+/// Factors over the pose of a frame: its matched planes, those of the map held fixed
+/// (PlaneObservation). Matches with planes that are no longer in the map are left out.
+std::vector<PoseFactor> MakePlanePoseFactors(const std::vector<PlaneFeature>& features,
+                                             const std::vector<PlaneMatch>& matches,
+                                             const MapPlanes& map);
+
+/// The factor of a window between a keyframe and the extra block of a plane of the map, with
+/// PlaneManifold. `noise`: MapPlanes::noise.
+CustomFactor MakePlaneFactor(const PlaneFeature& feature, double noise, const BlockId& pose,
+                             const BlockId& plane);
+
+}  // namespace msc_vo

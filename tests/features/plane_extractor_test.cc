@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/features/plane_extractor.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "tests/features/depth_images.h"
+#include "tests/support/lenses.h"
+#include <gtest/gtest.h>
+
+#include "msc_vo/camera/undistorted_camera.h"
+
+namespace msc_vo {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using testing::AddInverseDepthNoise;
+using testing::DrawDepth;
+
+// The inverse depths of planes: 1 / z = q . (x / z, y / z, 1).
+const Vector3d kWall(0.1, -0.05, 0.4), kFloor(0.0, 0.5, 0.2);
+
+// What is nearer hides the other.
+double Corner(const PinholeCamera& camera, const Vector2d& pixel) {
+  return std::max(kWall.dot(camera.Ray(pixel)), kFloor.dot(camera.Ray(pixel)));
+}
+
+std::vector<PlaneFeature> Extract(const PinholeCamera& camera, const cv::Mat& depth) {
+  return PlaneExtractor({}, camera, {}).Extract(depth);
+}
+
+TEST(PlaneExtractor, FindsWallAndFloor) {
+  const PinholeCamera camera;
+  const auto planes = Extract(
+      camera, DrawDepth(camera, [&](const Vector2d& pixel) { return Corner(camera, pixel); }));
+  ASSERT_EQ(planes.size(), 2u);
+  // Cells on the edge between them are flat enough to belong to either.
+  EXPECT_LT((planes[0].inverse_depth - kWall).norm(), 1e-3);
+  EXPECT_LT((planes[1].inverse_depth - kFloor).norm(), 1e-3);
+  EXPECT_GE(planes[0].num_pixels, planes[1].num_pixels);
+  EXPECT_NEAR(planes[0].Distance(), 1.0 / kWall.norm(), 1e-3);
+  EXPECT_LT(planes[0].Normal().z(), 0.0) << "towards the camera";
+}
+
+TEST(PlaneExtractor, IsExactThroughAWideLens) {
+  PinholeCamera camera = WideCamera();
+  LensDistortion lens = WideLens();
+  CropToFieldOfView(100.0, &lens, &camera);
+  const cv::Mat depth = DrawDepth(*lens.recorded, [&](const Vector2d& pixel) {
+    return std::max(0.0, kWall.dot(camera.Ray(lens.Undistort(camera, pixel))));
+  });
+  const auto planes = PlaneExtractor({}, camera, lens).Extract(depth);
+  ASSERT_EQ(planes.size(), 1u);
+  EXPECT_LT((planes[0].inverse_depth - kWall).norm(), 1e-4);
+}
+
+// Without a common error, the normalised squared error is chi-square with three degrees of freedom.
+TEST(PlaneExtractor, HasTheCovarianceOfItsErrors) {
+  const PinholeCamera camera;
+  PlaneExtractorOptions options;
+  options.common_sigma = 0.0;
+  PlaneExtractor extractor(options, camera, {});
+  const cv::Mat exact =
+      DrawDepth(camera, [&](const Vector2d& pixel) { return kWall.dot(camera.Ray(pixel)); });
+  double sum = 0.0;
+  constexpr int kRuns = 40;
+  for (int seed = 0; seed < kRuns; ++seed) {
+    cv::Mat depth = exact.clone();
+    // Errors that 25 pixels share: 4 pi blur^2.
+    AddInverseDepthNoise(options.inverse_depth_noise, 1.41, seed, &depth);
+    const auto planes = extractor.Extract(depth);
+    ASSERT_EQ(planes.size(), 1u);
+    const Vector3d error = planes[0].inverse_depth - kWall;
+    sum += error.dot(planes[0].covariance.inverse() * error);
+  }
+  EXPECT_NEAR(sum / kRuns / 3.0, 1.0, 0.3);
+}
+
+TEST(PlaneExtractor, MissingDepthDoesNotMatter) {
+  const PinholeCamera camera;
+  cv::Mat depth =
+      DrawDepth(camera, [&](const Vector2d& pixel) { return kWall.dot(camera.Ray(pixel)); });
+  depth(cv::Rect(200, 100, 150, 200)) = 0.0f;
+  const auto planes = Extract(camera, depth);
+  ASSERT_EQ(planes.size(), 1u);
+  EXPECT_LT((planes[0].inverse_depth - kWall).norm(), 1e-4);
+}
+
+TEST(PlaneExtractor, FindsNoneOnABall) {
+  const PinholeCamera camera;
+  constexpr double kRadius = 0.5;  // metres
+  const Vector3d center(0.0, 0.0, 1.2);
+  const auto planes = Extract(camera, DrawDepth(camera, [&](const Vector2d& pixel) {
+                                const Vector3d ray = camera.Ray(pixel);
+                                const double b = ray.dot(center), a = ray.squaredNorm();
+                                const double root =
+                                    b * b - a * (center.squaredNorm() - kRadius * kRadius);
+                                return root < 0.0 ? 0.0 : a / (b - std::sqrt(root));
+                              }));
+  for (const PlaneFeature& plane : planes) {
+    EXPECT_LT(plane.num_pixels, camera.width * camera.height / 20) << "a patch of the ball";
+  }
+}
+
+TEST(PlaneExtractor, RefusesWrongInput) {
+  const PinholeCamera camera;
+  PlaneExtractor extractor({}, camera, {});
+  EXPECT_THROW(extractor.Extract(cv::Mat(480, 640, CV_16UC1)), std::invalid_argument);
+  EXPECT_THROW(extractor.Extract(cv::Mat(240, 320, CV_32FC1)), std::invalid_argument);
+  PlaneExtractorOptions options;
+  options.min_ratio = 0.0;
+  EXPECT_THROW(PlaneExtractor(options, camera, {}), std::invalid_argument);
+  options = {};
+  options.max_depth = 0.1;
+  EXPECT_THROW(PlaneExtractor(options, camera, {}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace msc_vo

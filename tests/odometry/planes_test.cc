@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include <cmath>
+
+#include "tests/support/rendered_images.h"
+#include <gtest/gtest.h>
+
+#include "msc_vo/checkpoint/binary_reader.h"
+#include "msc_vo/checkpoint/binary_writer.h"
+#include "msc_vo/geometry/so3.h"
+
+namespace msc_vo {
+namespace {
+
+// The middle of a room of blank walls, floor and ceiling, from where walls, corner and floor are in
+// view to where one wall is.
+constexpr int kFirst = 31, kNumImages = 60;
+
+SyntheticSequenceOptions BlankRoom() {
+  SyntheticSequenceOptions options;
+  options.scene = SceneKind::kBlank;
+  return options;
+}
+
+std::vector<RgbdImage> ImagesOfBlankRoom() {
+  std::vector<RgbdImage> images = RenderImages(BlankRoom(), kFirst + kNumImages);
+  images.erase(images.begin(), images.begin() + kFirst);
+  return images;
+}
+
+OdometryOptions WithPlanes() {
+  OdometryOptions options;
+  options.features.extract_planes = true;
+  return options;
+}
+
+class PlanesTest : public ::testing::Test {
+ protected:
+  OdometryResult Track(const OdometryOptions& options) const {
+    Odometry odometry(options, sequence_.camera(), LensDistortion());
+    for (const RgbdImage& image : images_) odometry.Process(image);
+    return odometry.Finish();
+  }
+
+  // Of the camera of image i, relative to the first.
+  Rigid3 Error(const OdometryResult& result, int i) const {
+    const Rigid3 truth = sequence_.PoseAt(kFirst + i).world_from_cam.Inverse() *
+                         sequence_.PoseAt(kFirst).world_from_cam;
+    const Rigid3 estimate =
+        result.frames[i].cam_from_world * result.frames.front().cam_from_world.Inverse();
+    return estimate * truth.Inverse();
+  }
+
+  const SyntheticSequence sequence_{BlankRoom()};
+  const std::vector<RgbdImage> images_ = ImagesOfBlankRoom();
+};
+
+TEST_F(PlanesTest, HoldTheCameraWherePointsAndLinesDoNot) {
+  const OdometryResult with = Track(WithPlanes()), without = Track({});
+  int num_without = 0;
+  for (int i = 0; i < kNumImages; ++i) {
+    EXPECT_TRUE(IsEstimated(with.frames[i].status)) << "image " << i;
+    num_without += IsEstimated(without.frames[i].status);
+    const Rigid3 error = Error(with, i);
+    EXPECT_LT(error.translation().norm(), 0.03) << "image " << i;
+    EXPECT_LT(LogSO3(error.rotation()).norm(), 0.01) << "image " << i;
+    // Honest: five sigmas of each coordinate.
+    const Eigen::Vector3d sigma = with.frames[i].covariance->diagonal().tail<3>().cwiseSqrt();
+    if (i == 0) continue;
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_LT(std::abs(error.translation()[k]), 5.0 * sigma[k]) << "image " << i;
+    }
+  }
+  EXPECT_LT(num_without, kNumImages / 2);
+}
+
+TEST_F(PlanesTest, GiveTheSamePosesAtAnyNumberOfThreadsAndAfterACheckpoint) {
+  OdometryOptions one = WithPlanes(), two = one;
+  one.threads = 1;
+  two.threads = 2;
+  const OdometryResult expected = Track(one), parallel = Track(two);
+  Odometry resumed(one, sequence_.camera(), LensDistortion());
+  {
+    Odometry odometry(one, sequence_.camera(), LensDistortion());
+    for (int i = 0; i < kNumImages / 2; ++i) odometry.Process(images_[i]);
+    ObjectJournal journal;
+    BinaryWriter writer(&journal);
+    ASSERT_TRUE(odometry.Save(&writer));
+    ObjectJournal loaded(journal.pending());
+    BinaryReader reader(writer.bytes(), &loaded);
+    resumed.Restore(&reader);
+  }
+  for (int i = kNumImages / 2; i < kNumImages; ++i) resumed.Process(images_[i]);
+  const OdometryResult continued = resumed.Finish();
+  for (int i = 0; i < kNumImages; ++i) {
+    EXPECT_EQ(parallel.frames[i].cam_from_world.params, expected.frames[i].cam_from_world.params);
+    EXPECT_EQ(continued.frames[i].cam_from_world.params, expected.frames[i].cam_from_world.params);
+  }
+}
+
+}  // namespace
+}  // namespace msc_vo
