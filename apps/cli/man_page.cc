@@ -51,7 +51,8 @@ std::string ValueText(const CLI::Option& option) {
   const std::vector<std::string> choices = ChoicesOf(option);
   if (!choices.empty()) {
     std::string text;
-    for (const std::string& choice : choices) text += (text.empty() ? "" : "|") + Italic(choice);
+    // A line may end behind each bar.
+    for (const std::string& choice : choices) text += (text.empty() ? "" : "|\\:") + Italic(choice);
     return text;
   }
   const std::string type = option.get_type_name();

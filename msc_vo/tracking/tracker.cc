@@ -119,7 +119,9 @@ TrackedFrame Tracker::TrackInGap(const Input& input) {
 
 TrackedFrame Tracker::TrackByPlanes(const Input& input) {
   TrackedFrame tracked = BridgeWithPrediction(input);
-  tracked.status = ClassifyStatus(options_, tracked.pose);
+  // A direction that the planes leave free has the sigma of the prior, which begins small.
+  tracked.status = input.is_determined_by_planes ? ClassifyStatus(options_, tracked.pose)
+                                                 : TrackingStatus::kWeak;
   const bool is_certain = tracked.status == TrackingStatus::kTracked;
   if (is_certain && policy_.IsDue(*input.frame, tracked.matches, is_certain)) {
     tracked.keyframe.id = MakeKeyframe(input.frame->timestamp);
@@ -184,32 +186,38 @@ Tracker::Input Tracker::Predict(const std::shared_ptr<const Frame>& raw,
                                            predicted, snapshot.world, snapshot.extra_blocks});
   }
   input.has_custom_factors = !pose_factors_.empty();
-  const bool uses_planes = AddPlanes(&input);
+  AddPlanes(&input);
   if (pose_factors_.empty()) return input;
   std::vector<PoseFactor> factors = pose_factors_;
-  if (uses_planes && !input.has_custom_factors) factors.push_back(MotionPrior(input));
+  const bool has_only_planes = !input.planes.empty() && !input.has_custom_factors;
+  if (has_only_planes && !input.is_determined_by_planes) factors.push_back(MotionPrior(input));
   FrameMatches none;
   input.prediction.by_factors = EstimateFramePose(options_.pose, *input.frame, snapshot.map,
                                                   snapshot.noise_scale, factors, &predicted, &none);
-  input.is_held_by_planes = uses_planes && input.prediction.by_factors.usable;
+  input.is_held_by_planes = !input.planes.empty() && input.prediction.by_factors.usable;
   return input;
 }
 
 // After a gap, a prediction does not tell parallel planes apart.
-bool Tracker::AddPlanes(Input* input) {
+void Tracker::AddPlanes(Input* input) {
   const bool follows =
       !in_gap_ && input->frame->timestamp - last_.frame->timestamp <= options_.max_prediction;
-  if (!follows) return false;
+  if (!follows) return;
   const MapPlanes& map = input->snapshot.planes;
   input->planes = MatchPlanes(input->frame->planes, map, input->prediction.cam_from_world);
   for (PoseFactor& factor : MakePlanePoseFactors(input->frame->planes, input->planes, map)) {
     pose_factors_.push_back(std::move(factor));
   }
-  return !input->planes.empty();
+  std::vector<PlaneFeature> matched;
+  for (const PlaneMatch& match : input->planes) {
+    matched.push_back(input->frame->planes[match.feature]);
+  }
+  input->is_determined_by_planes = DetermineAPose(matched);
 }
 
-// What is known of the pose where planes leave it free: the prediction, with sigmas that grow since
-// the last frame that was determined.
+// What is known of the pose where planes leave it free: the prediction behind a frame that was
+// determined, else the last pose, as a velocity would be that of noise; with sigmas that grow since
+// that frame.
 PoseFactor Tracker::MotionPrior(const Input& input) const {
   // The camera may stop or turn at any time: of hand-held cameras, metres and radians per second.
   constexpr double kSpeedSigma = 0.5, kTurnSigma = 1.0;
@@ -217,7 +225,9 @@ PoseFactor Tracker::MotionPrior(const Input& input) const {
   PoseCovariance covariance = PoseCovariance::Identity();
   covariance.topLeftCorner<3, 3>() *= std::pow(kTurnSigma * seconds, 2);
   covariance.bottomRightCorner<3, 3>() *= std::pow(kSpeedSigma * seconds, 2);
-  return {"motion", PosePrior::CreateShared(input.prediction.cam_from_world, covariance), nullptr};
+  const bool has_velocity = last_determined_ == last_.frame->timestamp;
+  const Rigid3& mean = has_velocity ? input.prediction.cam_from_world : input.last_from_world;
+  return {"motion", PosePrior::CreateShared(mean, covariance), nullptr};
 }
 
 TrackedFrame Tracker::BridgeWithPrediction(const Input& input) const {

@@ -72,9 +72,11 @@ class Tracker {
     std::shared_ptr<const Frame> frame;  // compensated with the predicted velocity
     Rigid3 last_from_world;              // pose of `last_` in the map
     PosePrediction prediction;
-    std::vector<PlaneMatch> planes;   // of `frame`
-    bool has_custom_factors = false;  // of the callback, over its pose
-    bool is_held_by_planes = false;   // they alone determine the predicted pose
+    std::vector<PlaneMatch> planes;        // of `frame`
+    bool has_custom_factors = false;       // of the callback, over its pose
+    bool is_determined_by_planes = false;  // in all directions, by those of the map
+    bool is_held_by_planes =
+        false;  // `prediction.by_factors` is their pose, with that of the last frame
   };
 
   // Makes the first frame a keyframe if it has enough features with depth.
@@ -88,9 +90,8 @@ class Tracker {
   // Updates the last frame to the map, predicts the pose and asks for the pose factors.
   Input Predict(const std::shared_ptr<const Frame>& raw, const MapSnapshot& snapshot,
                 bool use_factors);
-  // Matches the planes of the frame, if it follows a tracked one, and adds their factors. Returns
-  // whether there are any.
-  bool AddPlanes(Input* input);
+  // Matches the planes of the frame, if it follows a tracked one, and adds their factors.
+  void AddPlanes(Input* input);
   PoseFactor MotionPrior(const Input& input) const;
   // Without an initial pose: bridges the frame, unless it begins a new segment, or a new part of
   // the map, where pose factors have moved the camera.

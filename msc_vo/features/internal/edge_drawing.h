@@ -38,8 +38,8 @@ class EdgeDrawing {
 
   std::vector<int> anchors_;  // strongest first
   std::vector<int> unsorted_anchors_;
-  std::vector<int16_t> in_column_;  // 1 in the columns that are searched, else 0
-  std::vector<int16_t> is_anchor_;  // of one row, 1 or 0
+  std::vector<int16_t> in_column_;       // 1 in the columns that are searched, else 0
+  std::vector<int16_t> is_anchor_;       // of one row, 1 or 0
   std::vector<int> first_of_magnitude_;  // counting sort: next position in anchors_
   std::vector<Mark> marks_;
   std::vector<int> pixels_;
