@@ -35,8 +35,8 @@ void ListGeneral(OdometryOptions* options, OptionLister* list) {
   list->Add("use_lines", &options->use_lines, "Use line features.")
       .MakeBasic("Disable to estimate the motion from points only.");
   list->Add("use_planes", &options->features.extract_planes,
-            "Use planes of the depth images as landmarks.")
-      .MakeBasic("Enable where blank walls leave few points and lines.");
+            "Use planes of the depth images as landmarks, where blank walls leave few points and "
+            "lines.");
   list->Add("close_loops", &options->tracking.find_loops,
             "Recognise places that were left, and correct the map when the camera returns.");
   list->Add("align_depth", &options->align_depth,

@@ -76,8 +76,9 @@ Scene MakeDeadEnd(uint64_t seed) {
   Random& random = builder.random();
   const double x = 4.5, y = 0.95;
   AddBlankHall({-x, -y, 0}, {x, y, 2.5}, &builder);
-  AddDoor(UprightFrame({-2.6, -y, 0}, 0.0), {0.9, 2.02}, {0.66f, 0.55f, 0.42f}, &builder);
-  AddDoor(UprightFrame({-1.2, y, 0}, kPi), {0.9, 2.02}, {0.66f, 0.55f, 0.42f}, &builder);
+  const double left = -2.6 + random.Uniform(-0.2, 0.2), right = -1.2 + random.Uniform(-0.2, 0.2);
+  AddDoor(UprightFrame({left, -y, 0}, 0.0), {0.9, 2.02}, {0.66f, 0.55f, 0.42f}, &builder);
+  AddDoor(UprightFrame({right, y, 0}, kPi), {0.9, 2.02}, {0.66f, 0.55f, 0.42f}, &builder);
   // Towards the blank end, a halt in front of it, and backwards again.
   for (const double along : {-3.4, -2.4, -1.3, -0.2, 0.9, 1.9, 2.6, 2.7, 2.2, 1.2, 0.2, -1.0}) {
     const double side = random.Uniform(-0.15, 0.15);
@@ -92,7 +93,7 @@ Scene MakePoster(uint64_t seed) {
   Random& random = builder.random();
   const double x = 3.0, y = 2.0;
   AddBlankHall({-x, -y, 0}, {x, y, 2.5}, &builder);
-  AddPicture(UprightFrame({0.0, -y, 0}, 0.0), {0.6, 0.8}, 1.4, &builder);
+  AddPicture(UprightFrame({random.Uniform(-0.2, 0.2), -y, 0}, 0.0), {0.6, 0.8}, 1.4, &builder);
   // Along the wall, past the poster, and back.
   for (int leg = 0; leg < 2; ++leg) {
     const double way = leg == 0 ? 1.0 : -1.0;

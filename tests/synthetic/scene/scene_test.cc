@@ -19,10 +19,11 @@ namespace {
 
 using Vec = Eigen::Vector3d;
 
-constexpr std::array<SceneKind, 10> kKinds = {
-    SceneKind::kRoom,   SceneKind::kCorridor, SceneKind::kBare,  SceneKind::kSlanted,
-    SceneKind::kHouse,  SceneKind::kBox,      SceneKind::kRooms, SceneKind::kMirrored,
-    SceneKind::kFloors, SceneKind::kDesks};
+constexpr std::array<SceneKind, 14> kKinds = {
+    SceneKind::kRoom,    SceneKind::kCorridor, SceneKind::kBare,  SceneKind::kSlanted,
+    SceneKind::kHouse,   SceneKind::kBox,      SceneKind::kRooms, SceneKind::kMirrored,
+    SceneKind::kFloors,  SceneKind::kDesks,    SceneKind::kBlank, SceneKind::kZigZag,
+    SceneKind::kDeadEnd, SceneKind::kPoster};
 
 // True if a direction is one of the world's axes, to 1e-6 radians.
 bool IsAxis(const Vec& direction) {
@@ -91,6 +92,10 @@ TEST(SceneTest, ParsesNamesOfScenes) {
   EXPECT_EQ(SceneKindFromName("mirrored"), SceneKind::kMirrored);
   EXPECT_EQ(SceneKindFromName("floors"), SceneKind::kFloors);
   EXPECT_EQ(SceneKindFromName("desks"), SceneKind::kDesks);
+  EXPECT_EQ(SceneKindFromName("blank"), SceneKind::kBlank);
+  EXPECT_EQ(SceneKindFromName("zigzag"), SceneKind::kZigZag);
+  EXPECT_EQ(SceneKindFromName("dead-end"), SceneKind::kDeadEnd);
+  EXPECT_EQ(SceneKindFromName("poster"), SceneKind::kPoster);
   EXPECT_EQ(SceneKindNames().size(), kKinds.size());
   EXPECT_FALSE(SceneKindFromName("garden").has_value());
 }
