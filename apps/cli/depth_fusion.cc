@@ -28,7 +28,9 @@ cv::Mat ReadColor(const SequenceIndex& index, int i) {
     return color;
   }
   const StoredImage stored = index.container->ReadColor(entry.color_index);
-  return stored.bytes.empty() ? stored.pixels : DecodeImage(stored.bytes, cv::IMREAD_COLOR);
+  return stored.bytes.empty()
+             ? stored.pixels
+             : DecodeImage(stored.bytes, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
 }
 
 // The colour image as RGB in the size of the depth image.

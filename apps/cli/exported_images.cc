@@ -52,8 +52,10 @@ RgbdDecoder OpenExportedSequence(const RunExport& arguments) {
     return decoder;
   }
   const std::optional<int> max_width = configuration.camera.max_width;
+  const std::optional<double> float_depth_scale = configuration.camera.float_depth_scale;
   configuration.camera = SettingsOf(*recorded);
   configuration.camera.max_width = max_width;
+  configuration.camera.float_depth_scale = float_depth_scale;
   const RgbdDecoder decoder = OpenDecoder(sequence, configuration);
   RefuseToOverwriteImages(decoder.index(), arguments);
   // The camera of undistorted images is that of the run, which the settings do not have.

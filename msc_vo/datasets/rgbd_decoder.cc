@@ -182,9 +182,10 @@ StoredRgbd RgbdDecoder::ReadForExport(int i) const {
   try {
     DecodePair(i, stored);  // an image that cannot be decoded is not copied
     if (index_.scale_color) {
-      cv::Mat color = stored.color.bytes.empty()
-                          ? stored.color.pixels
-                          : DecodeImage(stored.color.bytes, cv::IMREAD_COLOR);
+      cv::Mat color =
+          stored.color.bytes.empty()
+              ? stored.color.pixels
+              : DecodeImage(stored.color.bytes, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
       const cv::Size size(calibration_.camera.width, calibration_.camera.height);
       cv::resize(color, color, size, 0.0, 0.0, cv::INTER_AREA);
       stored.color = {"", color};
@@ -261,8 +262,9 @@ RgbdImage RgbdDecoder::MakeImage(int i, const SequenceEntry& entry, cv::Mat colo
 cv::Mat RgbdDecoder::DecodeDepth(const StoredImage& stored, const SequenceEntry& entry) const {
   cv::Mat depth = DecodeStored(stored, entry.depth_path, entry);
   if (depth.depth() != CV_32F && depth.depth() != CV_64F) return depth;
-  depth.convertTo(depth, CV_32F, 1.0 / index_.float_depth_scale);
-  return depth;
+  cv::Mat metres;  // `depth` may be the stored pixels
+  depth.convertTo(metres, CV_32F, 1.0 / index_.float_depth_scale);
+  return metres;
 }
 
 void RgbdDecoder::CheckDepthType(const cv::Mat& depth, const SequenceEntry& entry) const {

@@ -171,10 +171,10 @@ Frame FrameBuilder::Build(const RgbdImage& image, const TaskRunner& run) {
   }
   FrameBuilderTimes& times = state_->times;
   Stopwatch stopwatch;
-  RgbdImage unmasked = image;
-  RemoveMaskedDepth(&unmasked);
+  RgbdImage masked = image;
+  RemoveMaskedDepth(&masked);
   state_->SetMask(image.mask);
-  state_->depth.Assign(unmasked);
+  state_->depth.Assign(masked);
   frame.depth_ranges = MakeDepthRanges(state_->depth.image(), state_->lens, frame.camera);
   times.depth = stopwatch.Restart();
   std::vector<State::PointLevel> levels(
@@ -190,7 +190,7 @@ Frame FrameBuilder::Build(const RgbdImage& image, const TaskRunner& run) {
     line_depth_ms = line_stopwatch.Restart();
   });
   if (state_->planes) {
-    tasks.push_back([&] { frame.planes = state_->planes->Extract(image.depth); });
+    tasks.push_back([&] { frame.planes = state_->planes->Extract(masked.depth); });
   }
   for (size_t l = 0; l < levels.size(); ++l) {
     tasks.push_back([&, l] { levels[l] = state_->BuildPointLevel(static_cast<int>(l)); });

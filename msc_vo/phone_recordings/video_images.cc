@@ -66,7 +66,7 @@ cv::Mat VideoImages::Read(int number) const {
     ++next_;
   }
   image_ = reader_->Image().clone();
-  current_ = number;
+  current_ = image_.empty() ? -1 : number;
   if (image_.empty()) {
     throw std::runtime_error(path_ + ": image " + std::to_string(number) + " is empty");
   }
