@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
+#include "msc_vo/datasets/image_container.h"
 #include "msc_vo/exports/recorded_run.h"
 #include "msc_vo/results/sequence_identity.h"
 #include "msc_vo/text/files.h"
@@ -32,6 +34,15 @@ void RefuseToOverwriteImages(const SequenceIndex& index, const RunExport& argume
   }
 }
 
+// Throws std::runtime_error if the run read the images with other settings of their source.
+void CheckSettings(const SequenceIndex& index, const RecordedReading& reading) {
+  const std::string settings = index.container ? index.container->Settings() : "";
+  if (settings == reading.settings) return;
+  throw std::runtime_error(index.directory + ": the run read it with other settings (" +
+                           reading.settings + "; now: " + settings +
+                           "); give --min-confidence as in the run");
+}
+
 }  // namespace
 
 std::string TrajectoryPath(const std::string& run) {
@@ -42,24 +53,30 @@ RgbdDecoder OpenExportedSequence(const RunExport& arguments) {
   SequenceArguments sequence = arguments.sequence;
   sequence.directory = SequencePath(arguments);
   Configuration configuration = MakeConfiguration(arguments.configuration);
-  std::optional<Calibration> recorded;
-  if (IsFolder(arguments.run) && sequence.camera.empty() && configuration.camera.IsEmpty()) {
-    recorded = ReadRecordedRun(arguments.run).calibration;
+  const RecordedRun run = IsFolder(arguments.run) ? ReadRecordedRun(arguments.run) : RecordedRun();
+  const RecordedReading reading = run.reading.value_or(RecordedReading());
+  if (sequence.mask.empty()) {
+    sequence.mask = reading.mask;
+    sequence.mask_zero = reading.mask_zero;
   }
-  if (!recorded) {
-    RgbdDecoder decoder = OpenDecoder(sequence, configuration);
-    RefuseToOverwriteImages(decoder.index(), arguments);
-    return decoder;
+  CameraSettings& camera = configuration.camera;
+  const bool is_as_recorded = run.calibration && sequence.camera.empty() && camera.IsEmpty();
+  if (is_as_recorded) {
+    const std::optional<int> max_width = camera.max_width;
+    const double float_depth_scale = camera.float_depth_scale.value_or(reading.float_depth_scale);
+    camera = SettingsOf(*run.calibration);
+    camera.max_width = max_width;
+    camera.float_depth_scale = float_depth_scale;
   }
-  const std::optional<int> max_width = configuration.camera.max_width;
-  const std::optional<double> float_depth_scale = configuration.camera.float_depth_scale;
-  configuration.camera = SettingsOf(*recorded);
-  configuration.camera.max_width = max_width;
-  configuration.camera.float_depth_scale = float_depth_scale;
-  const RgbdDecoder decoder = OpenDecoder(sequence, configuration);
+  RgbdDecoder decoder = OpenDecoder(sequence, configuration);
   RefuseToOverwriteImages(decoder.index(), arguments);
-  // The camera of undistorted images is that of the run, which the settings do not have.
-  return {decoder.index(), *recorded};
+  if (run.reading) CheckSettings(decoder.index(), reading);
+  if (!is_as_recorded) return decoder;
+  // The settings have neither the camera of undistorted images nor the size of colour images that
+  // the run reduced.
+  SequenceIndex index = decoder.index();
+  index.scale_color = index.scale_color || reading.color_is_reduced;
+  return {std::move(index), *run.calibration};
 }
 
 void RequireImageFiles(const RgbdDecoder& decoder) {

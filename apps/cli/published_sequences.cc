@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "msc_vo/datasets/camera_preset.h"
-#include "msc_vo/datasets/sequence.h"
+#include "msc_vo/phone_recordings/folder_sequence.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 void CheckNames(const PublishedSequence& sequence, const std::string& path) {
-  const std::vector<std::string> formats = SequenceFormatNames();
+  const std::vector<std::string> formats = FolderFormatNames();
   const std::vector<CameraPreset>& cameras = CameraPresets();
   if (sequence.format != "auto" &&
       std::find(formats.begin(), formats.end(), sequence.format) == formats.end()) {

@@ -4,9 +4,11 @@
 #include "apps/cli/replay_exports.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <stdexcept>
 
 #include "apps/cli/output_file.h"
+#include "msc_vo/results/result_files.h"
 #include "msc_vo/text/files.h"
 
 namespace msc_vo {
@@ -45,6 +47,22 @@ std::string CheckExportText(const std::string& text) {
   return "'" + FormatOf(text) + "' is no format; formats: " + names;
 }
 
+// Throws std::runtime_error if a path is that of another export or of a result.
+void RefuseTakenPath(const RunExport& one, const std::vector<RunExport>& others,
+                     const std::string& results) {
+  const std::filesystem::path path = std::filesystem::weakly_canonical(one.output);
+  const auto fail = [&](const std::string& what) {
+    throw std::runtime_error("is also the path of " + what + "; give another one");
+  };
+  for (const RunExport& other : others) {
+    if (std::filesystem::weakly_canonical(other.output) == path) fail(NameOf(other));
+  }
+  if (path.parent_path() != std::filesystem::weakly_canonical(results)) return;
+  for (const std::string& name : ResultFileNames()) {
+    if (path.filename() == name) fail("a result of the run");
+  }
+}
+
 std::vector<RunExport> PlanExports(const ReplayArguments& arguments, const RgbdDecoder& sequence,
                                    const std::string& output) {
   std::vector<RunExport> exports;
@@ -61,6 +79,7 @@ std::vector<RunExport> PlanExports(const ReplayArguments& arguments, const RgbdD
       one.sequence.camera.clear();
     }
     try {
+      RefuseTakenPath(one, exports, output);
       CheckBeforeRun(one, arguments, sequence);
     } catch (const std::exception& error) {
       throw std::runtime_error(NameOf(one) + ": " + error.what());

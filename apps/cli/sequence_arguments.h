@@ -21,7 +21,7 @@ struct SequenceArguments {
   std::string camera;                     ///< preset; may be empty
   std::string min_confidence = "medium";  ///< of depths of telephones
   std::string mask;                       ///< file or folder; empty: none
-  bool mask_zero = false;                 ///< zero is left out, instead of what is not zero
+  bool mask_zero = false;  ///< pixels that are zero are left out, instead of the others
 };
 
 /// Declares SEQUENCE and the arguments of AddLayoutArguments(). SEQUENCE, which is returned, is

@@ -36,6 +36,8 @@ class ImageMasks {
   /// shape than the image.
   cv::Mat Read(const std::string& color_path, const ImageSize& size) const;
 
+  const std::string& path() const { return path_; }
+  LeftOut left_out() const { return left_out_; }
   /// What decides on the masks: path, number and bytes of the files, meaning of zero.
   const std::string& description() const { return description_; }
 

@@ -253,7 +253,10 @@ RgbdImage RgbdDecoder::MakeImage(int i, const SequenceEntry& entry, cv::Mat colo
   if (index_.masks) {
     cv::Mat mask = index_.masks->Read(entry.color_path, recorded_size);
     if (index_.container) mask = index_.container->AlignMask(entry.color_index, mask);
-    cv::resize(mask, image.mask, image.gray.size(), 0.0, 0.0, cv::INTER_NEAREST);
+    // A pixel that is mixed from masked ones is masked.
+    cv::resize(mask, image.mask, image.gray.size(), 0.0, 0.0,
+               mask.cols > image.gray.cols ? cv::INTER_AREA : cv::INTER_NEAREST_EXACT);
+    image.mask = image.mask > 0;
     RemoveMaskedDepth(&image);
   }
   return image;

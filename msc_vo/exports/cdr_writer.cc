@@ -3,26 +3,13 @@
 
 #include "msc_vo/exports/cdr_writer.h"
 
-#include <fastcdr/Cdr.h>
-#include <fastcdr/FastBuffer.h>
+#include "msc_vo/ros_bag/fast_cdr.h"
 
 namespace msc_vo {
 
 namespace {
 
-using eprosima::fastcdr::Cdr;
-using eprosima::fastcdr::FastBuffer;
-
-// What Fast CDR 2 names otherwise than Fast CDR 1.
-#if FASTCDR_VERSION_MAJOR >= 2
-constexpr auto kPlainCdr = eprosima::fastcdr::CdrVersion::DDS_CDR;
-size_t SizeOf(const Cdr& cdr) { return cdr.get_serialized_data_length(); }
-void AddArray(const uint8_t* bytes, size_t size, Cdr* cdr) { cdr->serialize_array(bytes, size); }
-#else
-constexpr auto kPlainCdr = Cdr::DDS_CDR;
-size_t SizeOf(const Cdr& cdr) { return cdr.getSerializedDataLength(); }
-void AddArray(const uint8_t* bytes, size_t size, Cdr* cdr) { cdr->serializeArray(bytes, size); }
-#endif
+using namespace fast_cdr;
 
 }  // namespace
 
@@ -35,7 +22,7 @@ struct CdrWriter::Stream {
   template <typename Value>
   void Add(const Value& value, size_t size = sizeof(Value)) {
     constexpr size_t kEncapsulation = 4;
-    while ((SizeOf(cdr) - kEncapsulation) % size != 0) cdr << uint8_t{0};
+    while ((PositionOf(cdr) - kEncapsulation) % size != 0) cdr << uint8_t{0};
     cdr << value;
   }
 };
@@ -78,7 +65,7 @@ CdrWriter& CdrWriter::AddBytes(std::string_view bytes) {
 }
 
 std::string CdrWriter::Message() const {
-  return std::string(stream_->buffer.getBuffer(), SizeOf(stream_->cdr));
+  return std::string(stream_->buffer.getBuffer(), PositionOf(stream_->cdr));
 }
 
 }  // namespace msc_vo

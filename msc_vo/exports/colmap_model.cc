@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 
+#include "msc_vo/exports/little_endian_bytes.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
@@ -35,19 +36,19 @@ class Bytes {
  public:
   template <typename Number>
   Bytes& Add(Number value) {
-    bytes_.append(reinterpret_cast<const char*>(&value), sizeof(value));
+    bytes_.Add(value);
     return *this;
   }
   Bytes& AddCount(size_t count) { return Add(static_cast<uint64_t>(count)); }
   Bytes& AddId(int index) { return Add(static_cast<uint32_t>(index + 1)); }
   Bytes& AddText(const std::string& text) {
-    bytes_ += text + '\0';
+    bytes_.Append(text).Add(uint8_t{0});
     return *this;
   }
-  const std::string& bytes() const { return bytes_; }
+  const std::string& bytes() const { return bytes_.bytes(); }
 
  private:
-  std::string bytes_;
+  LittleEndianBytes bytes_;
 };
 
 constexpr uint8_t kGray = 128;  // of all points: the map has no colours

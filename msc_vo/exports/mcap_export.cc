@@ -3,8 +3,10 @@
 
 #include "msc_vo/exports/mcap_export.h"
 
+#include <filesystem>
 #include <map>
 #include <stdexcept>
+#include <system_error>
 
 #include "msc_vo/exports/mcap_writer.h"
 #include "msc_vo/exports/ros2_definitions.h"
@@ -119,7 +121,9 @@ void WriteImage(const McapFrame& frame, const CameraIntrinsics& camera, RosBag* 
 
 void RequireMcapExport() {}
 
-void ExportMcap(const McapRun& run, const std::string& path) {
+namespace {
+
+void WriteRun(const McapRun& run, const std::string& path) {
   RosBag bag(path);
   if (!run.frames.empty()) WriteMap(run, &bag);
   const McapFrame* before = nullptr;
@@ -129,6 +133,20 @@ void ExportMcap(const McapRun& run, const std::string& path) {
     before = &frame;
   }
   bag.Finish();
+}
+
+}  // namespace
+
+void ExportMcap(const McapRun& run, const std::string& path) {
+  const std::string part = path + ".part";
+  try {
+    WriteRun(run, part);
+    std::filesystem::rename(part, path);
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove(part, ignored);
+    throw;
+  }
 }
 
 }  // namespace msc_vo

@@ -9,8 +9,7 @@ namespace msc_vo {
 
 void RequireMcapExport() {
   throw std::runtime_error(
-      "mcap: this msc_vo was built without Fast CDR or zstd; install libfastcdr-dev, libzstd-dev "
-      "and "
+      "mcap: this msc_vo was built without bags of ROS 2; install libfastcdr-dev, libzstd-dev and "
       "liblz4-dev, and build it again");
 }
 

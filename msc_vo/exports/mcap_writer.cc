@@ -10,29 +10,17 @@
 #include <zstd.h>
 
 #include "msc_vo/exports/little_endian_bytes.h"
+#include "msc_vo/ros_bag/mcap_format.h"
 #include "msc_vo/version.h"
 
 namespace msc_vo {
 
 namespace {
 
-constexpr std::string_view kMagic("\x89MCAP0\r\n", 8);
+using namespace mcap;
+
 constexpr size_t kChunkBytes = 768 * 1024;  // as of rosbag2
 constexpr int kCompressionLevel = 3;        // the default of zstd
-
-enum Opcode : uint8_t {
-  kHeader = 0x01,
-  kFooter = 0x02,
-  kSchema = 0x03,
-  kChannel = 0x04,
-  kMessage = 0x05,
-  kChunk = 0x06,
-  kMessageIndex = 0x07,
-  kChunkIndex = 0x08,
-  kStatistics = 0x0B,
-  kSummaryOffset = 0x0E,
-  kDataEnd = 0x0F,
-};
 
 // Adds a text or an array with its length in front.
 LittleEndianBytes& AddText(std::string_view text, LittleEndianBytes* bytes) {

@@ -5,23 +5,14 @@
 
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <stdexcept>
 
+#include "msc_vo/exports/little_endian_bytes.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
 
 namespace {
-
-// Appends a number of 32 bits, lowest byte first on any machine.
-template <typename T>
-void Append32(const T& value, std::string* bytes) {
-  static_assert(sizeof(T) == sizeof(uint32_t), "PLY types float and int");
-  uint32_t bits = 0;
-  std::memcpy(&bits, &value, sizeof(bits));
-  for (int i = 0; i < 4; ++i) *bytes += static_cast<char>((bits >> (8 * i)) & 0xFFU);
-}
 
 std::string Header(const ColoredMesh& mesh) {
   std::string text = FormatText(
@@ -46,20 +37,20 @@ std::string FormatMeshPly(const ColoredMesh& mesh) {
   if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size()) {
     throw std::invalid_argument("mesh: expected one normal per vertex, or none");
   }
-  std::string bytes = Header(mesh);
-  bytes.reserve(bytes.size() + 27 * mesh.positions.size() + 13 * mesh.triangles.size());
+  LittleEndianBytes bytes;
+  bytes.Append(Header(mesh));
   for (size_t i = 0; i < mesh.positions.size(); ++i) {
-    for (const float x : mesh.positions[i]) Append32(x, &bytes);
+    for (const float x : mesh.positions[i]) bytes.Add(x);
     if (!mesh.normals.empty()) {
-      for (const float x : mesh.normals[i]) Append32(x, &bytes);
+      for (const float x : mesh.normals[i]) bytes.Add(x);
     }
-    for (const uint8_t channel : mesh.colors[i]) bytes += static_cast<char>(channel);
+    for (const uint8_t channel : mesh.colors[i]) bytes.Add(channel);
   }
   for (const std::array<int32_t, 3>& triangle : mesh.triangles) {
-    bytes += static_cast<char>(triangle.size());
-    for (const int32_t vertex : triangle) Append32(vertex, &bytes);
+    bytes.Add(static_cast<uint8_t>(triangle.size()));
+    for (const int32_t vertex : triangle) bytes.Add(vertex);
   }
-  return bytes;
+  return bytes.bytes();
 }
 
 }  // namespace msc_vo

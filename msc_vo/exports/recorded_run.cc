@@ -26,6 +26,9 @@ constexpr const char* kAxes[] = {"rx", "ry", "rz", "tx", "ty", "tz"};
 constexpr const char* kPose[] = {"odom_qx", "odom_qy", "odom_qz", "odom_qw",
                                  "odom_x",  "odom_y",  "odom_z"};
 
+// Of every damage of a result file.
+constexpr const char* kFix = "; run the sequence again";
+
 // Rows of a file with named columns.
 class Table {
  public:
@@ -38,8 +41,7 @@ class Table {
     const std::vector<std::string>& names = lines_[0].fields;
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) {
-      lines_[0].Fail("no column '" + name +
-                     "': it was written by an earlier version; run the sequence again");
+      lines_[0].Fail("no column '" + name + "': it was written by an earlier version" + kFix);
     }
     return static_cast<size_t>(found - names.begin());
   }
@@ -47,12 +49,12 @@ class Table {
     const TextLine& line = lines_[row + 1];
     if (line.fields.size() != lines_[0].fields.size()) {
       line.Fail(std::to_string(lines_[0].fields.size()) + " columns expected, found " +
-                std::to_string(line.fields.size()));
+                std::to_string(line.fields.size()) + kFix);
     }
     const std::optional<double> number = ParseNumber(line.fields[column]);
     if (!number || !std::isfinite(*number)) {
       line.Fail("'" + line.fields[column] + "' in the column " + lines_[0].fields[column] +
-                " is no number");
+                " is no number" + kFix);
     }
     return *number;
   }
@@ -61,6 +63,39 @@ class Table {
  private:
   std::vector<TextLine> lines_;
 };
+
+RecordedReading ParseReading(const nlohmann::json& json) {
+  RecordedReading reading;
+  json.at("color_is_reduced").get_to(reading.color_is_reduced);
+  json.at("float_depth_scale").get_to(reading.float_depth_scale);
+  if (!json.at("mask").is_null()) json.at("mask").get_to(reading.mask);
+  json.at("mask_zero").get_to(reading.mask_zero);
+  json.at("settings").get_to(reading.settings);
+  return reading;
+}
+
+// The covariance of the pose of a row; none if the row states none.
+std::optional<PoseCovariance> ReadCovariance(const Table& table, size_t row,
+                                             const std::vector<size_t>& sigmas,
+                                             const size_t (&correlations)[6][6]) {
+  PoseCovariance covariance;
+  for (int i = 0; i < 6; ++i) {
+    const double sigma = table.Number(row, sigmas[i]);
+    if (sigma < 0.0) table.Line(row).Fail(std::string(kSigmas[i]) + " is negative" + kFix);
+    covariance(i, i) = i < 3 ? DegreesToRadians(sigma) : sigma;
+  }
+  for (int i = 0; i < 6; ++i) {
+    for (int j = i + 1; j < 6; ++j) {
+      const double correlation = table.Number(row, correlations[i][j]);
+      if (std::abs(correlation) > 1.0) {
+        table.Line(row).Fail(std::string("a correlation must be within [-1, 1]") + kFix);
+      }
+      covariance(i, j) = covariance(j, i) = correlation * covariance(i, i) * covariance(j, j);
+    }
+  }
+  covariance.diagonal() = covariance.diagonal().cwiseAbs2().eval();
+  return covariance.trace() > 0.0 ? std::make_optional(covariance) : std::nullopt;
+}
 
 }  // namespace
 
@@ -83,22 +118,14 @@ std::map<int64_t, RecordedFrame> ReadFramesCsv(const std::string& path) {
     RecordedFrame frame;
     for (int i = 0; i < 7; ++i) frame.odom_from_cam.params[i] = table.Number(row, pose[i]);
     const double length = frame.odom_from_cam.rotation().norm();
-    if (!(std::abs(length - 1.0) < 1e-3)) table.Line(row).Fail("the quaternion has no unit length");
+    if (!(std::abs(length - 1.0) < 1e-3)) {
+      table.Line(row).Fail(std::string("the quaternion has no unit length") + kFix);
+    }
     frame.odom_from_cam.rotation().normalize();
-    PoseCovariance covariance;
-    for (int i = 0; i < 6; ++i) {
-      const double sigma = table.Number(row, sigmas[i]);
-      covariance(i, i) = i < 3 ? DegreesToRadians(sigma) : sigma;
+    frame.covariance = ReadCovariance(table, row, sigmas, correlations);
+    if (!frames.emplace(Microseconds(table.Number(row, time)), frame).second) {
+      table.Line(row).Fail(std::string("its time stands in a row before") + kFix);
     }
-    for (int i = 0; i < 6; ++i) {
-      for (int j = i + 1; j < 6; ++j) {
-        covariance(i, j) = covariance(j, i) =
-            table.Number(row, correlations[i][j]) * covariance(i, i) * covariance(j, j);
-      }
-    }
-    covariance.diagonal() = covariance.diagonal().cwiseAbs2().eval();
-    if (covariance.trace() > 0.0) frame.covariance = covariance;
-    frames[Microseconds(table.Number(row, time))] = frame;
   }
   return frames;
 }
@@ -112,6 +139,10 @@ RecordedRun ReadRecordedRun(const std::string& folder) {
     if (json.contains("final_camera")) {
       run.calibration = ParseCalibrationJson(json["final_camera"].dump());
       run.calibration->origin = path;
+    }
+    const auto sequence = json.find("sequence");
+    if (sequence != json.end() && sequence->contains("reading")) {
+      run.reading = ParseReading(sequence->at("reading"));
     }
     for (const auto& segment : json.value("segments", nlohmann::json::array())) {
       if (segment.at("in_map").get<bool>()) run.map_world = segment.at("world").get<int>();

@@ -29,10 +29,20 @@ int64_t Microseconds(double seconds);
 /// and line, if it is damaged or was written by a version without these columns.
 std::map<int64_t, RecordedFrame> ReadFramesCsv(const std::string& path);
 
+/// How the images of a run were read, apart from their camera.
+struct RecordedReading {
+  bool color_is_reduced = false;
+  double float_depth_scale = 1.0;  ///< units per metre of depth images of floating-point numbers
+  std::string mask;                ///< file or folder; empty: none
+  bool mask_zero = false;          ///< pixels of the mask that are zero are left out
+  std::string settings;            ///< ImageContainer::Settings()
+};
+
 /// What summary.json says of a run.
 struct RecordedRun {
   /// At its end, with the camera as self-calibration has corrected it; none: of an earlier version.
   std::optional<Calibration> calibration;
+  std::optional<RecordedReading> reading;  ///< none: of an earlier version
   /// Number of the world that its map is in; none: there is no map.
   std::optional<int> map_world;
 };

@@ -7,12 +7,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <opencv2/imgproc.hpp>
 
 #include "msc_vo/camera/image_scale.h"
 #include "msc_vo/camera/lens_validity.h"
@@ -135,9 +133,9 @@ std::vector<PlaneFeature> PlaneExtractor::Extract(const cv::Mat& depth) {
   for (const int seed : seeds) {
     if (cells_[seed].taken) continue;
     Cell region;
-    const std::vector<int> cells = Grow(seed, &region);
+    Grow(seed, &region);
     if (region.count * step_ * step_ < min_pixels) continue;
-    planes.push_back(MakeFeature(cells, region));
+    planes.push_back(MakeFeature(region));
   }
   std::stable_sort(planes.begin(), planes.end(), [](const PlaneFeature& a, const PlaneFeature& b) {
     return a.num_pixels > b.num_pixels;
@@ -188,8 +186,8 @@ bool PlaneExtractor::LiesOn(const Cell& cell, const Vector3d& inverse_depth) con
   return difference.dot(cell.square_rays * difference) <= limit * limit * cell.count;
 }
 
-// Marks the cells of the region around a seed as taken, and returns them.
-std::vector<int> PlaneExtractor::Grow(int seed, Cell* region) {
+// Marks the cells of the region around a seed as taken, and sums them.
+void PlaneExtractor::Grow(int seed, Cell* region) {
   std::vector<int> cells{seed};
   cells_[seed].taken = true;
   *region = cells_[seed];
@@ -219,10 +217,9 @@ std::vector<int> PlaneExtractor::Grow(int seed, Cell* region) {
   *region = Cell();
   for (const int index : cells) region->Add(cells_[index]);
   if (!cells.empty()) region->Fit();
-  return cells;
 }
 
-PlaneFeature PlaneExtractor::MakeFeature(const std::vector<int>& cells, const Cell& region) const {
+PlaneFeature PlaneExtractor::MakeFeature(const Cell& region) const {
   PlaneFeature plane;
   plane.inverse_depth = region.inverse_depth;
   const double variance = std::pow(options_.inverse_depth_noise, 2) * correlation_area_ /
@@ -231,17 +228,6 @@ PlaneFeature PlaneExtractor::MakeFeature(const std::vector<int>& cells, const Ce
                      std::pow(options_.common_sigma, 2) * Matrix3d::Identity();
   plane.mean_square_ray = region.square_rays / region.count;
   plane.num_pixels = region.count * step_ * step_;
-  const size_t per_cell = static_cast<size_t>(cell_size_ / step_) * (cell_size_ / step_);
-  const auto per_side = static_cast<size_t>(cell_size_ / step_);
-  std::vector<cv::Point2f> corners, hull;
-  for (const int cell : cells) {
-    const Eigen::Vector2f* rays = &rays_[cell * per_cell];
-    for (const size_t i : {size_t{0}, per_side - 1, per_cell - per_side, per_cell - 1}) {
-      if (rays[i].x() != kHidden) corners.emplace_back(rays[i].x(), rays[i].y());
-    }
-  }
-  cv::convexHull(corners, hull);
-  for (const cv::Point2f& corner : hull) plane.hull.emplace_back(corner.x, corner.y);
   return plane;
 }
 

@@ -48,9 +48,9 @@ class PlaneExtractor {
 
   void FitCells(const cv::Mat& depth);
   Cell FitCell(const cv::Mat& depth, int column, int row) const;
-  std::vector<int> Grow(int seed, Cell* region);
+  void Grow(int seed, Cell* region);
   bool LiesOn(const Cell& cell, const Eigen::Vector3d& inverse_depth) const;
-  PlaneFeature MakeFeature(const std::vector<int>& cells, const Cell& region) const;
+  PlaneFeature MakeFeature(const Cell& region) const;
 
   PlaneExtractorOptions options_;
   PinholeCamera camera_;

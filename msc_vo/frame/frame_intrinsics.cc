@@ -63,7 +63,6 @@ void MovePlanes(const PinholeCamera& from, const PinholeCamera& to,
     plane.inverse_depth = a.transpose() * plane.inverse_depth;
     plane.covariance = a.transpose() * plane.covariance * a;
     plane.mean_square_ray = inverse * plane.mean_square_ray * inverse.transpose();
-    for (Eigen::Vector2d& corner : plane.hull) corner = (inverse * corner.homogeneous()).head<2>();
   }
 }
 

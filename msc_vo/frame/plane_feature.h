@@ -3,8 +3,6 @@
 
 #pragma once
 
-#include <vector>
-
 #include <Eigen/Core>
 
 namespace msc_vo {
@@ -19,7 +17,6 @@ struct PlaneFeature {
   /// depth between two planes where this one was seen.
   Eigen::Matrix3d mean_square_ray = Eigen::Matrix3d::Zero();
   int num_pixels = 0;
-  std::vector<Eigen::Vector2d> hull;  ///< convex hull of its pixels, x / z and y / z
 
   /// Unit normal towards the camera, and the distance of the camera from the plane, metres.
   Eigen::Vector3d Normal() const { return -inverse_depth.normalized(); }
@@ -27,7 +24,7 @@ struct PlaneFeature {
 
   template <typename Archive>
   void Serialize(Archive& archive) {
-    archive.Fields(*this, inverse_depth, covariance, mean_square_ray, num_pixels, hull);
+    archive.Fields(*this, inverse_depth, covariance, mean_square_ray, num_pixels);
   }
 };
 

@@ -184,9 +184,8 @@ void Mapper::Cull(KeyframeTask* task) {
   MappingSummary& summary = task->summary_;
   summary.num_culled_keyframes = Timed(&summary.times.culling, [&] {
     SubMap& submap = atlas_.current();
-    const MapPlanes planes = submap.planes.InWorld(submap.map);
     const int num_culled = care_.CullKeyframes(summary.keyframe, &submap.map);
-    if (num_culled > 0) submap.planes.Renew(planes, submap.map);
+    if (num_culled > 0) submap.planes.Renew(submap.map);
     return num_culled;
   });
   assert(FirstViolation(map()).empty());

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <memory>
+#include <set>
 #include <utility>
 
 #include "msc_vo/factors/plane_manifold.h"
@@ -59,28 +61,18 @@ void PlaneMap::AddKeyframe(const Map& map, KeyframeId keyframe) {
   keyframes_[keyframe] = std::move(matches);
 }
 
-void PlaneMap::Renew(const MapPlanes& before, const Map& map) {
-  std::map<LandmarkId, KeyframeId> observers;  // the newest of each plane
+void PlaneMap::Renew(const Map& map) {
+  std::set<LandmarkId> observed;
   for (auto keyframe = keyframes_.begin(); keyframe != keyframes_.end();) {
     if (map.FindKeyframe(keyframe->first) == nullptr) {
       keyframe = keyframes_.erase(keyframe);
       continue;
     }
-    for (const PlaneMatch& match : keyframe->second) observers[match.plane] = keyframe->first;
+    for (const PlaneMatch& match : keyframe->second) observed.insert(match.plane);
     ++keyframe;
   }
   for (auto plane = planes_.begin(); plane != planes_.end();) {
-    const auto observer = observers.find(plane->first);
-    const PlaneLandmark* in_world = before.Find(plane->first);
-    if (observer == observers.end() || in_world == nullptr) {
-      plane = planes_.erase(plane);
-      continue;
-    }
-    HostedPlane& hosted = plane->second;
-    if (map.FindKeyframe(hosted.host) == nullptr) {
-      hosted = {observer->second, map.CamFromWorld(observer->second) * in_world->plane};
-    }
-    ++plane;
+    plane = observed.count(plane->first) > 0 ? std::next(plane) : planes_.erase(plane);
   }
 }
 
@@ -156,9 +148,7 @@ MapPlanes PlaneMap::InWorld(const Map& map) const {
   MapPlanes result;
   result.noise = noise_;
   for (const auto& [id, plane] : planes_) {
-    const Keyframe* host = map.FindKeyframe(plane.host);
-    if (host == nullptr) continue;
-    result.planes.push_back({id, host->cam_from_world.Inverse() * plane.in_host});
+    result.planes.push_back({id, map.CamFromWorld(plane.host).Inverse() * plane.in_host});
   }
   return result;
 }

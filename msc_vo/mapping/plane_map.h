@@ -13,8 +13,9 @@
 namespace msc_vo {
 
 /// The planes of a submap and the keyframes that observe them. A plane is kept in the camera frame
-/// of one of these keyframes, its host, and moves with it when the map is corrected. In a window,
-/// planes are extra blocks with ids below kFirstBlock, tied to the keyframes by PlaneObservation.
+/// of a keyframe that observed it, its host, and moves with it when the map is corrected. In a
+/// window, planes are extra blocks with ids below kFirstBlock, tied to the keyframes by
+/// PlaneObservation.
 class PlaneMap {
  public:
   /// Ids of extra blocks below this one are planes.
@@ -22,9 +23,8 @@ class PlaneMap {
 
   /// Matches the planes of a keyframe of the map, and adds those that are new.
   void AddKeyframe(const Map& map, KeyframeId keyframe);
-  /// Forgets keyframes that were culled, and the planes that only they observed. `before`: the
-  /// planes before the culling.
-  void Renew(const MapPlanes& before, const Map& map);
+  /// Forgets keyframes that were culled, and the planes that only they observed.
+  void Renew(const Map& map);
   /// Takes over the planes of a map that was joined with that of this one; the keyframes of both
   /// are in one map now.
   void Join(PlaneMap other);

@@ -17,8 +17,7 @@ namespace msc_vo {
 std::vector<PlaneMatch> MatchPlanes(const std::vector<PlaneFeature>& features, const MapPlanes& map,
                                     const Rigid3& cam_from_world);
 
-/// Whether planes with these normals hold a camera in all directions, and not one plane alone or
-/// parallels of two.
+/// Whether planes with these normals determine a pose: their normals span three directions.
 bool DetermineAPose(const std::vector<PlaneFeature>& features);
 
 }  // namespace msc_vo

@@ -381,7 +381,7 @@ OdometryResult Odometry::Finish() {
   SetWorlds(result.segments, &result.frames);
   result.loops = state_->loops.loops();
   FillGaps(result.segments, &result.frames);
-  state_->segments.PropagateCovariances(&result.frames);
+  state_->segments.PropagateCovariances(state_->results, &result.frames);
   result.map_world = LargestWorld(result.segments);
   AddMap(state_->mapper, state_->segments.SubMapOf(result.map_world), &result);
   AddEarlierSessions(state_->mapper.atlas(), state_->sessions.earlier(), &result);

@@ -119,25 +119,29 @@ std::vector<Segment> SegmentLog::Segments(const std::vector<FrameResult>& frames
   return segments;
 }
 
-void SegmentLog::PropagateCovariances(std::vector<FrameResult>* frames) const {
+void SegmentLog::PropagateCovariances(const std::vector<FrameResult>& tracked,
+                                      std::vector<FrameResult>* frames) const {
   for (size_t i = 0; i < frames->size(); ++i) {
     FrameResult& frame = (*frames)[i];
     if (frame.segment == kNoSegment || !IsEstimated(frame.status)) continue;
     const std::vector<Move>& moves = entries_[frame.segment].moves;
-    // From the world of the final pose back to the one in which the pose was estimated.
-    std::vector<Rigid3> poses;  // in the worlds before each move
-    Rigid3 cam_from_world = frame.cam_from_world;
-    for (auto move = moves.rbegin(); move != moves.rend(); ++move) {
-      cam_from_world = cam_from_world * move->join.moved_from_kept.Inverse();
-      poses.push_back(cam_from_world);
+    const auto first = std::find_if(moves.begin(), moves.end(), [i](const Move& move) {
+      return static_cast<int>(i) < move.frame;
+    });
+    // From the final pose back to the world in which it was estimated.
+    std::vector<Rigid3> poses{frame.cam_from_world};
+    for (auto move = moves.end(); move != first;) {
+      poses.push_back(poses.back() * (--move)->join.moved_from_kept.Inverse());
     }
-    std::reverse(poses.begin(), poses.end());
-    for (size_t m = 0; m < moves.size(); ++m) {
-      if (static_cast<int>(i) >= moves[m].frame) continue;
-      const MapJoin& join = moves[m].join;
+    if (frame.covariance) {
+      frame.covariance = CovarianceOfCamera(
+          poses.back(), CameraCovariance(tracked[i].cam_from_world, *frame.covariance));
+    }
+    for (auto move = first; move != moves.end(); ++move) {
       frame.covariance =
-          ComposeCovariances(poses[m], frame.covariance.value_or(PoseCovariance::Zero()),
-                             join.moved_from_kept, join.covariance);
+          ComposeCovariances(poses.back(), frame.covariance.value_or(PoseCovariance::Zero()),
+                             move->join.moved_from_kept, move->join.covariance);
+      poses.pop_back();
     }
   }
 }

@@ -67,10 +67,12 @@ class SegmentLog {
   /// The segments, given the frames of the run with their segments.
   std::vector<Segment> Segments(const std::vector<FrameResult>& frames) const;
 
-  /// Adds the covariance of the joins to the poses that were estimated before them in maps that
-  /// were moved. `frames` have their final poses. The pose of a frame that began a world has the
-  /// covariance of the join alone.
-  void PropagateCovariances(std::vector<FrameResult>* frames) const;
+  /// Moves the covariances of the poses from those at tracking, `tracked`, to the final ones, which
+  /// `frames` have: what is uncertain is the camera, in its own frame. Adds the covariance of the
+  /// joins to the poses that were estimated before them in maps that were moved. The pose of a
+  /// frame that began a world has the covariance of the join alone.
+  void PropagateCovariances(const std::vector<FrameResult>& tracked,
+                            std::vector<FrameResult>* frames) const;
 
   /// Lists the state for a checkpoint.
   template <typename Archive>

@@ -56,7 +56,7 @@ double CommonCamera::Displacement(int i) const {
   return largest * kReferenceWidth / camera_.width;
 }
 
-cv::Mat CommonCamera::Resample(int i, const cv::Mat& image, int interpolation) const {
+cv::Mat CommonCamera::Resample(int i, const cv::Mat& image, int interpolation, int outside) const {
   const ImageSize size{image.cols, image.rows};
   const PinholeCamera from = ScaledCamera(cameras_[static_cast<size_t>(i)], size);
   const PinholeCamera to = ScaledCamera(camera_, size);
@@ -65,7 +65,7 @@ cv::Mat CommonCamera::Resample(int i, const cv::Mat& image, int interpolation) c
   const bool is_nearest = interpolation == cv::INTER_NEAREST;
   cv::Mat resampled;
   cv::warpAffine(image, resampled, map, image.size(), interpolation | cv::WARP_INVERSE_MAP,
-                 is_nearest ? cv::BORDER_CONSTANT : cv::BORDER_REPLICATE);
+                 is_nearest ? cv::BORDER_CONSTANT : cv::BORDER_REPLICATE, cv::Scalar::all(outside));
   return resampled;
 }
 

@@ -34,8 +34,8 @@ class CommonCamera {
   bool Resamples(int i) const { return Displacement(i) > kMaxDisplacement; }
   /// Returns an image of the view of colour image i, of any size, as the common camera would have
   /// taken it. `interpolation`: of OpenCV; pixels outside the image have the value of the nearest
-  /// pixel, or 0 with nearest neighbours.
-  cv::Mat Resample(int i, const cv::Mat& image, int interpolation) const;
+  /// pixel, or `outside` with nearest neighbours.
+  cv::Mat Resample(int i, const cv::Mat& image, int interpolation, int outside = 0) const;
 
  private:
   double Displacement(int i) const;

@@ -89,7 +89,8 @@ std::string PhoneImages::Settings() const {
 }
 
 cv::Mat PhoneImages::AlignMask(int index, const cv::Mat& mask) const {
-  return Resamples(index) ? camera_->Resample(index, mask, cv::INTER_NEAREST) : mask;
+  constexpr int kLeftOut = 255;
+  return Resamples(index) ? camera_->Resample(index, mask, cv::INTER_NEAREST, kLeftOut) : mask;
 }
 
 double PhoneImages::RemovedDepthRatio() const {

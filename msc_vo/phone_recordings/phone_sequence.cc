@@ -3,6 +3,7 @@
 
 #include "msc_vo/phone_recordings/phone_sequence.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -57,6 +58,23 @@ void DescribeConfidence(const PhoneImages& images, const std::vector<PhoneFrame>
       FormatText("depths of less than %s confidence are left out, %.1f %% of a sample; "
                  "--min-confidence changes that",
                  ToString(least), 100.0 * ratio));
+}
+
+void DescribePoses(const PhoneRecording& recording, SequenceIndex* index) {
+  const std::vector<PhoneFrame>& frames = recording.frames;
+  const auto damaged = std::find_if(frames.begin(), frames.end(), [](const PhoneFrame& frame) {
+    return !frame.world_from_cam.has_value();
+  });
+  if (damaged != frames.end()) {
+    index->warnings.push_back(FormatText(
+        "%zu of %zu poses of %s are no rotation and translation and are left out, first that of %s",
+        frames.size() - index->ground_truth.size(), frames.size(), recording.poses_by.c_str(),
+        damaged->image.color_path.c_str()));
+  }
+  if (index->ground_truth.empty()) return;
+  index->reference = recording.poses_by;
+  index->warnings.push_back("the poses of " + recording.poses_by +
+                            " are a reference to compare with, not ground truth");
 }
 
 }  // namespace
@@ -118,11 +136,7 @@ SequenceIndex MakePhoneSequence(PhoneRecording recording, DepthConfidence least)
   index.container = container;
   index.is_same_view = true;
   index.depth_sensor = DepthSensor::kLidar;
-  if (!index.ground_truth.empty()) {
-    index.reference = recording.poses_by;
-    index.warnings.push_back("the poses of " + recording.poses_by +
-                             " are a reference to compare with, not ground truth");
-  }
+  DescribePoses(recording, &index);
   return index;
 }
 

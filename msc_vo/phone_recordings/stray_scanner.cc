@@ -129,8 +129,9 @@ std::vector<int> VideoNumbers(const VideoImages& video, const std::vector<Odomet
   const bool is_by_row = video.HasImages(num_rows, &num_images);
   const bool is_by_frame =
       rows.back().frame + 1 == num_images &&
-      std::is_sorted(rows.begin(), rows.end(),
-                     [](const OdometryRow& a, const OdometryRow& b) { return a.frame < b.frame; });
+      std::adjacent_find(rows.begin(), rows.end(), [](const OdometryRow& a, const OdometryRow& b) {
+        return a.frame >= b.frame;
+      }) == rows.end();
   if (!is_by_row && !is_by_frame) {
     throw std::runtime_error(video.path() + " has " + std::to_string(num_images) + " images, but " +
                              odometry + " has " + std::to_string(num_rows) +

@@ -87,8 +87,8 @@ std::string DescribeMissing(const PublishedSequence& sequence, const std::string
   for (const std::string& folder : sequence.folders) {
     folders += (folders.empty() ? "" : " or ") + folder;
   }
-  return sequence.name + " (" + sequence.dataset + "): no folder " + folders + " in " + root +
-         "; it can be had from " + sequence.url;
+  return sequence.name + " (" + sequence.dataset + "): wanted as the folder " + folders + " in " +
+         root + "; it can be had from " + sequence.url;
 }
 
 }  // namespace
@@ -158,7 +158,7 @@ std::string FormatPublishedJson(const PublishedTable& table, const Benchmark& be
   json["sequences"] = Json::array();
   for (const PublishedSequence& sequence : table.sequences) {
     Json entry = {{"name", sequence.name}, {"dataset", sequence.dataset}, {"url", sequence.url}};
-    entry["found"] = HasRun(benchmark, sequence.name);
+    entry["is_run"] = HasRun(benchmark, sequence.name);
     entry["msc_vo"] = Json::object();
     for (const std::string& mode : benchmark.modes) {
       const BenchmarkRun* const run = FindRun(benchmark, sequence.name, mode);

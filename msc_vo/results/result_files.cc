@@ -62,6 +62,12 @@ void WriteResult(const std::string& path, const std::string& content, std::uintm
 
 }  // namespace
 
+std::vector<std::string> ResultFileNames() {
+  std::vector<std::string> names(std::begin(kFilesOfEveryRun), std::end(kFilesOfEveryRun));
+  names.insert(names.end(), {"groundtruth.txt", "reference.txt", "sequence.json"});
+  return names;
+}
+
 std::string FormatFrameRow(const FrameResult& frame) {
   const StageTimes& ms = frame.times;
   std::string text = FormatText("%.6f,%s,%d,%d,%d,%d,%d", frame.timestamp, ToString(frame.status),

@@ -20,6 +20,9 @@ std::string FormatFramesCsv(const std::vector<FrameResult>& frames);
 /// A single row of it.
 std::string FormatFrameRow(const FrameResult& frame);
 
+/// The names of the files that a run may write into its folder of results.
+std::vector<std::string> ResultFileNames();
+
 /// Throws std::runtime_error if results in `directory` would be written into a folder of the
 /// sequence or over one of `files` (may be empty). Call before the run, so that no work is lost.
 void RefuseToOverwriteInputs(const SequenceIndex& sequence, const std::vector<std::string>& files,

@@ -3,8 +3,11 @@
 
 #include "msc_vo/results/summary_json.h"
 
+#include <filesystem>
 #include <type_traits>
 
+#include "msc_vo/datasets/image_container.h"
+#include "msc_vo/datasets/image_masks.h"
 #include "msc_vo/results/calibration_json.h"
 #include "msc_vo/results/internal/run_json.h"
 #include "msc_vo/version.h"
@@ -80,6 +83,17 @@ Calibration FinalCalibration(const RunSummary& summary, const RunContext& contex
   return calibration;
 }
 
+// How the images were read, apart from the camera; whoever reads them again does it alike.
+Json ReadingToJson(const SequenceIndex& sequence) {
+  const ImageMasks* masks = sequence.masks.get();
+  return {
+      {"color_is_reduced", sequence.scale_color},
+      {"float_depth_scale", sequence.float_depth_scale},
+      {"mask", masks == nullptr ? Json() : Json(std::filesystem::absolute(masks->path()).string())},
+      {"mask_zero", masks != nullptr && masks->left_out() == ImageMasks::LeftOut::kZero},
+      {"settings", sequence.container ? sequence.container->Settings() : ""}};
+}
+
 // Null if the images were not processed at the pace of their time stamps.
 Json RealtimeToJson(const std::optional<RealtimeSummary>& realtime) {
   if (!realtime) return {};
@@ -99,6 +113,7 @@ std::string FormatSummaryJson(const RunSummary& summary, const RunContext& conte
       {"recorder", context.sequence.recorder},
       {"reference", context.sequence.reference.empty() ? Json() : Json(context.sequence.reference)},
       {"images", context.sequence.entries.size()},
+      {"reading", ReadingToJson(context.sequence)},
       {"warnings", context.sequence.warnings}};
   json["camera"] = CameraToJson(context.calibration);
   json["final_camera"] = Json::parse(FormatCalibrationJson(FinalCalibration(summary, context)));

@@ -3,26 +3,14 @@
 
 #include <stdexcept>
 
-#include <fastcdr/Cdr.h>
-#include <fastcdr/FastBuffer.h>
-
+#include "msc_vo/ros_bag/fast_cdr.h"
 #include "msc_vo/ros_bag/ros_fields.h"
 
 namespace msc_vo {
 
 namespace {
 
-using eprosima::fastcdr::Cdr;
-using eprosima::fastcdr::FastBuffer;
-
-// What Fast CDR 2 names otherwise than Fast CDR 1.
-#if FASTCDR_VERSION_MAJOR >= 2
-constexpr auto kPlainCdr = eprosima::fastcdr::CdrVersion::DDS_CDR;
-size_t PositionOf(const Cdr& cdr) { return cdr.get_serialized_data_length(); }
-#else
-constexpr auto kPlainCdr = Cdr::DDS_CDR;
-size_t PositionOf(const Cdr& cdr) { return cdr.getSerializedDataLength(); }
-#endif
+using namespace fast_cdr;
 
 // Calls what reads from a message; an error of the library becomes ours.
 template <typename Read>

@@ -12,24 +12,17 @@
 
 #include "msc_vo/ros_bag/decompression.h"
 #include "msc_vo/ros_bag/little_endian_fields.h"
+#include "msc_vo/ros_bag/mcap_format.h"
 
 namespace msc_vo {
 
 namespace {
 
-constexpr std::string_view kMagic("\x89MCAP0\r\n", 8);
+using namespace mcap;
+
 constexpr uint64_t kRecordHeader = 9;    // opcode and length of the content
 constexpr uint64_t kMessageHeader = 22;  // channel, number, two times
 constexpr size_t kNumUnpacked = 2;
-
-enum Opcode : uint8_t {
-  kFooter = 0x02,
-  kSchema = 0x03,
-  kChannel = 0x04,
-  kMessage = 0x05,
-  kChunk = 0x06,
-  kMessageIndex = 0x07,
-};
 
 McapMessage ParseMessageHeader(LittleEndianFields fields, int chunk, uint64_t offset) {
   McapMessage message;

@@ -8,6 +8,7 @@
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 #include "msc_vo/datasets/trajectory_format.h"
 #include "msc_vo/ros_bag/bag_file.h"
@@ -96,6 +97,45 @@ TEST_F(ExportCommandTest, WritesPointsWithNormals) {
 }
 #endif
 
+#ifdef MSC_VO_HAS_FUSION
+// What is not in the camera: reduced colour, masks, the unit of depth in floating-point numbers.
+TEST_F(ExportCommandTest, ReadsTheImagesAsTheRunDid) {
+  const auto expect_same = [&](const std::vector<std::string>& arguments) {
+    std::vector<std::string> run = {"replay",
+                                    Path("x"),
+                                    "--output",
+                                    Path("other"),
+                                    "--overwrite",
+                                    "--export",
+                                    "ply=" + Path("run.ply"),
+                                    "--quiet"};
+    run.insert(run.end(), arguments.begin(), arguments.end());
+    Run(run);
+    Run({"export", Path("other"), "ply", Path("later.ply")});
+    EXPECT_TRUE(ReadFile(Path("run.ply")) == ReadFile(Path("later.ply")));
+    return ReadFile(Path("run.ply"));
+  };
+  const std::string whole = expect_same({});
+  EXPECT_FALSE(expect_same({"--set", "camera.max_width=128"}).empty());
+  cv::Mat mask(120, 160, CV_8UC1, cv::Scalar(0));
+  mask.colRange(80, 160) = 255;
+  ASSERT_TRUE(cv::imwrite(Path("mask.png"), mask));
+  EXPECT_LT(expect_same({"--mask", Path("mask.png")}).size(), whole.size());
+  for (const std::string& path : ListFolder(Path("x/depth"))) {
+    cv::Mat depth;
+    cv::imread(path, cv::IMREAD_UNCHANGED).convertTo(depth, CV_32F, 5.0 / 5000.0);
+    ASSERT_TRUE(cv::imwrite(path.substr(0, path.size() - 4) + ".tiff", depth));
+    std::filesystem::remove(path);
+  }
+  std::string list = ReadFile(Path("x/depth.txt"));
+  for (size_t at; (at = list.find(".png")) != std::string::npos;) list.replace(at, 4, ".tiff");
+  WriteText("x/depth.txt", list);
+  std::filesystem::remove(Path("x/associations.txt"));
+  const std::string of_floats = expect_same({"--set", "camera.float_depth_scale=5"});
+  EXPECT_GT(of_floats.size(), whole.size() / 2);
+}
+#endif
+
 // The images were taken with the camera of the run, whatever is said of the sequence later.
 TEST_F(ExportCommandTest, TakesTheCameraOfTheRun) {
   Run({"export", Path("run"), "nerfstudio", Path("before.json")});
@@ -162,6 +202,30 @@ TEST_F(ExportCommandTest, ReplayFailsBeforeTheRun) {
 }
 
 // The transform between two worlds is unknown.
+TEST_F(ExportCommandTest, ReplayRefusesPathsThatAreTaken) {
+  const std::vector<std::string> replay = {"replay", Path("x"), "--output", Path("new"), "--quiet"};
+  const auto refuse = [&](const std::vector<std::string>& exports) {
+    std::vector<std::string> arguments = replay;
+    for (const std::string& one : exports) arguments.insert(arguments.end(), {"--export", one});
+    EXPECT_THAT(Run(arguments, 1), Names("--export", "another one"));
+    EXPECT_FALSE(HasEntry(Path("new/trajectory.txt")));
+  };
+  refuse({"tum=" + Path("a.txt"), "kitti=" + Path("a.txt")});
+  refuse({"tum=" + Path("new/keyframes.txt")});
+  refuse({"tum=" + Path("new/report.html")});
+}
+
+#ifdef MSC_VO_HAS_MCAP
+TEST_F(ExportCommandTest, KeepsABagThatItCannotReplace) {
+  WriteText("x.mcap", "an earlier one");
+  for (const std::string& path : ListFolder(Path("x/rgb")))
+    WriteText("x/rgb/" + path.substr(path.rfind('/') + 1), "damaged");
+  Run({"export", Path("run"), "mcap", Path("x.mcap"), "--images"}, 1);
+  EXPECT_EQ(ReadFile(Path("x.mcap")), "an earlier one");
+  EXPECT_FALSE(HasEntry(Path("x.mcap.part")));
+}
+#endif
+
 TEST_F(ExportCommandTest, TakesOneWorld) {
   WriteText("two.txt",
             "1 0 0 0 0 0 0 1\n2 1 0 0 0 0 0 1\n# segment 1, world 1\n3 0 0 0 0 0 0 1\n"

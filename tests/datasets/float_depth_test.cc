@@ -4,11 +4,13 @@
 // Depth images of floating-point numbers, and of 16 bits in other files than PNG.
 
 #include <limits>
+#include <memory>
 
 #include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
+#include "msc_vo/datasets/image_container.h"
 #include "msc_vo/datasets/rgbd_decoder.h"
 #include "msc_vo/datasets/sequence_calibration.h"
 
@@ -63,6 +65,31 @@ TEST_F(FloatDepthTest, OfOtherUnitsNeedsTheirNumber) {
   const RgbdDecoder decoder = Open(settings);
   ExpectDepth(decoder.Decode(0).depth);
   EXPECT_FLOAT_EQ(decoder.ReadForExport(0).depth.pixels.at<float>(3, 3), 1.5f);
+}
+
+// Pixels that a container gives are its own: they are not converted in place.
+TEST_F(FloatDepthTest, OfAContainerIsConvertedOnce) {
+  class OneImage : public ImageContainer {
+   public:
+    StoredImage ReadColor(int) const override { return {"", color_}; }
+    StoredImage ReadDepth(int) const override { return {"", depth_}; }
+
+   private:
+    cv::Mat color_{6, 8, CV_8UC3, cv::Scalar::all(100)};
+    cv::Mat depth_{6, 8, CV_32FC1, cv::Scalar(1500.0)};
+  };
+  Write(".tiff", 1000.0);
+  CameraSettings settings;
+  settings.float_depth_scale = 1000.0;
+  SequenceIndex index = OpenSequence(Folder());
+  const Calibration calibration = ResolveCalibration(settings, "", &index);
+  index.container = std::make_shared<OneImage>();
+  index.entries[0].color_index = index.entries[0].depth_index = 0;
+  const RgbdDecoder decoder(index, calibration);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_FLOAT_EQ(decoder.ReadForExport(0).depth.pixels.at<float>(3, 3), 1.5f);
+    EXPECT_FLOAT_EQ(decoder.Decode(0).depth.at<float>(3, 3), 1.5f);
+  }
 }
 
 TEST_F(FloatDepthTest, Of16BitsInTiffHasTheUnitsOfTheCamera) {

@@ -112,15 +112,16 @@ TEST_F(PublishedTableTest, ComparesOwnColumnsWithPublishedOnes) {
   EXPECT_THAT(text, HasSubstr("\n| one | 7.1 | failed | 12.5 | failed |\n"));
   EXPECT_THAT(text, HasSubstr("\n| two | - | - | 20.0 | - |\n"));
   EXPECT_THAT(text, HasSubstr("- A: paper of A, Table 1\n"));
-  EXPECT_THAT(text, HasSubstr("- two (Rooms): no folder room_2 in /data; it can be had from "
-                              "https://rooms.example\n"));
+  EXPECT_THAT(text,
+              HasSubstr("- two (Rooms): wanted as the folder room_2 in /data; it can be had from "
+                        "https://rooms.example\n"));
   EXPECT_THAT(text, Not(HasSubstr("- one (")));
 
   const auto json = nlohmann::json::parse(FormatPublishedJson(table, OneRun(), "/data"));
   EXPECT_EQ(json["sequences"][0]["msc_vo"]["loops-off"], 0.0071);
   EXPECT_TRUE(json["sequences"][0]["msc_vo"]["loops-on"].is_null());
   EXPECT_EQ(json["sequences"][0]["published"]["A"], 0.0125);
-  EXPECT_FALSE(json["sequences"][1]["found"]);
+  EXPECT_FALSE(json["sequences"][1]["is_run"]);
 
   const std::string html = FormatPublishedHtml(table, OneRun(), "/data");
   EXPECT_THAT(html, HasSubstr("<tr><td>one</td><td>7.1</td><td>failed</td><td>12.5</td>"));

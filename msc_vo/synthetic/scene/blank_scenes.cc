@@ -24,6 +24,24 @@ void AddBlankHall(const Eigen::Vector3d& low, const Eigen::Vector3d& high, Scene
                              {{low.x() + 0.2 * x, low.y() + 0.6 * y, high.z() - 0.3}, 0.30, 2.4}};
 }
 
+// Waypoints along a wall of constant y and back, from -`reach` to `reach` along x, metres.
+// `heights`: of the camera and of what it looks at.
+void AddWalkPastAWall(double reach, double y, const Eigen::Vector2d& heights, double wall_y,
+                      SceneBuilder* builder) {
+  constexpr int kNumSteps = 5;
+  Random& random = builder->random();
+  for (int leg = 0; leg < 2; ++leg) {
+    const double way = leg == 0 ? 1.0 : -1.0;
+    for (int i = 0; i <= kNumSteps; ++i) {
+      const double along = way * reach * (2.0 * i / kNumSteps - 1.0);
+      const double side = y + random.Uniform(-0.1, 0.1);
+      const double height = heights[0] + random.Uniform(-0.1, 0.1);
+      builder->AddWaypoint({along, side, height},
+                           {along + random.Uniform(-0.2, 0.2), wall_y, heights[1]});
+    }
+  }
+}
+
 }  // namespace
 
 Scene MakeBlank(uint64_t seed) {
@@ -58,16 +76,8 @@ Scene MakeZigZag(uint64_t seed) {
     builder.AddQuad({at + step, -step, 2.5 * Eigen::Vector3d::UnitZ(), white});
     at += step;
   }
-  // Past the panels and back, so close that the image shows little else.
-  for (int leg = 0; leg < 2; ++leg) {
-    const double way = leg == 0 ? 1.0 : -1.0;
-    for (int i = 0; i < 6; ++i) {
-      const double along = way * (0.36 * i - 0.9);
-      builder.AddWaypoint(
-          {along, 0.35 + random.Uniform(-0.1, 0.1), 0.8 + random.Uniform(-0.1, 0.1)},
-          {along + random.Uniform(-0.2, 0.2), -0.8, 0.3});
-    }
-  }
+  // So close that the image shows little else.
+  AddWalkPastAWall(0.9, 0.35, {0.8, 0.3}, -0.8, &builder);
   return builder.scene();
 }
 
@@ -94,15 +104,7 @@ Scene MakePoster(uint64_t seed) {
   const double x = 3.0, y = 2.0;
   AddBlankHall({-x, -y, 0}, {x, y, 2.5}, &builder);
   AddPicture(UprightFrame({random.Uniform(-0.2, 0.2), -y, 0}, 0.0), {0.6, 0.8}, 1.4, &builder);
-  // Along the wall, past the poster, and back.
-  for (int leg = 0; leg < 2; ++leg) {
-    const double way = leg == 0 ? 1.0 : -1.0;
-    for (int i = 0; i < 6; ++i) {
-      const double along = way * (0.7 * i - 1.75);
-      builder.AddWaypoint({along, -0.6 + random.Uniform(-0.1, 0.1), 1.35},
-                          {along + random.Uniform(-0.2, 0.2), -y, 1.3 + random.Uniform(-0.1, 0.1)});
-    }
-  }
+  AddWalkPastAWall(1.75, -0.6, {1.35, 1.3}, -y, &builder);
   return builder.scene();
 }
 
