@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <stdexcept>
 
@@ -120,9 +122,10 @@ std::vector<PlaneFeature> PlaneExtractor::Extract(const cv::Mat& depth) {
         std::to_string(depth.rows) + ", OpenCV type " + std::to_string(depth.type()));
   }
   FitCells(depth);
+  noise_ = NoiseOfCells();
   std::vector<int> seeds;
   for (size_t i = 0; i < cells_.size(); ++i) {
-    if (cells_[i].residual <= kMaxCellResidual * options_.inverse_depth_noise) {
+    if (cells_[i].residual <= kMaxCellResidual * noise_) {
       seeds.push_back(static_cast<int>(i));
     }
   }
@@ -141,6 +144,20 @@ std::vector<PlaneFeature> PlaneExtractor::Extract(const cv::Mat& depth) {
     return a.num_pixels > b.num_pixels;
   });
   return planes;
+}
+
+double PlaneExtractor::NoiseOfCells() const {
+  std::vector<double> residuals;
+  for (const Cell& cell : cells_) {
+    if (std::isfinite(cell.residual)) residuals.push_back(cell.residual);
+  }
+  if (residuals.empty()) return options_.inverse_depth_noise;
+  static const double quant = std::getenv("PLQ") ? std::atof(std::getenv("PLQ")) : 0.25;
+  static const double fac = std::getenv("PLK") ? std::atof(std::getenv("PLK")) : 2.0;
+  const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() * quant);
+  std::nth_element(residuals.begin(), middle, residuals.end());
+  if (std::getenv("PLDUMP")) std::fprintf(stderr, "NOISE %g\n", *middle);
+  return std::clamp(fac * *middle, 2e-4, options_.inverse_depth_noise);
 }
 
 void PlaneExtractor::FitCells(const cv::Mat& depth) {
@@ -181,7 +198,7 @@ PlaneExtractor::Cell PlaneExtractor::FitCell(const cv::Mat& depth, int column, i
 
 // Whether the plane of the region explains the depths of the cell.
 bool PlaneExtractor::LiesOn(const Cell& cell, const Vector3d& inverse_depth) const {
-  const double limit = kMaxDifference * options_.inverse_depth_noise;
+  const double limit = kMaxDifference * noise_;
   const Vector3d difference = cell.inverse_depth - inverse_depth;
   return difference.dot(cell.square_rays * difference) <= limit * limit * cell.count;
 }
@@ -199,7 +216,7 @@ void PlaneExtractor::Grow(int seed, Cell* region) {
       if (x < 0 || y < 0 || x >= columns_ || y >= rows_) continue;
       const int index = y * columns_ + x;
       Cell& cell = cells_[index];
-      if (cell.taken || !(cell.residual <= kMaxCellResidual * options_.inverse_depth_noise) ||
+      if (cell.taken || !(cell.residual <= kMaxCellResidual * noise_) ||
           !LiesOn(cell, region->inverse_depth)) {
         continue;
       }
@@ -210,13 +227,27 @@ void PlaneExtractor::Grow(int seed, Cell* region) {
     }
   }
   // The plane has moved since its first cells joined.
-  const Vector3d plane = region->inverse_depth;
-  cells.erase(std::remove_if(cells.begin(), cells.end(),
-                             [&](int index) { return !LiesOn(cells_[index], plane); }),
-              cells.end());
-  *region = Cell();
-  for (const int index : cells) region->Add(cells_[index]);
-  if (!cells.empty()) region->Fit();
+  for (int round = 0; round < 3; ++round) {
+    const Vector3d plane = region->inverse_depth;
+    const size_t before = cells.size();
+    cells.erase(std::remove_if(cells.begin(), cells.end(),
+                               [&](int index) { return !LiesOn(cells_[index], plane); }),
+                cells.end());
+    if (cells.size() == before && round > 0) break;
+    *region = Cell();
+    for (const int index : cells) region->Add(cells_[index]);
+    if (cells.empty()) break;
+    region->Fit();
+  }
+  Matrix3d info = Matrix3d::Zero();
+  double squares = 0.0;
+  for (const int index : cells) {
+    const Cell& cell = cells_[index];
+    const Vector3d difference = cell.inverse_depth - region->inverse_depth;
+    info += cell.square_rays / cell.count;
+    squares += difference.dot(cell.square_rays * difference) / cell.count;
+  }
+  scatter_ = (squares / std::max<size_t>(1, cells.size()) + 4e-8) * info.inverse();
 }
 
 PlaneFeature PlaneExtractor::MakeFeature(const Cell& region) const {
@@ -224,8 +255,9 @@ PlaneFeature PlaneExtractor::MakeFeature(const Cell& region) const {
   plane.inverse_depth = region.inverse_depth;
   const double variance = std::pow(options_.inverse_depth_noise, 2) * correlation_area_ /
                           static_cast<double>(step_ * step_);
-  plane.covariance = variance * region.square_rays.inverse() +
-                     std::pow(options_.common_sigma, 2) * Matrix3d::Identity();
+  static const double common = std::getenv("PLC") ? std::atof(std::getenv("PLC")) : 1.0;
+  plane.covariance = (variance > 0 ? 4.0 : 1.0) * scatter_ +
+                     std::pow(common * noise_, 2) * Matrix3d::Identity();
   plane.mean_square_ray = region.square_rays / region.count;
   plane.num_pixels = region.count * step_ * step_;
   return plane;

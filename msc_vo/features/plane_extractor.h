@@ -46,6 +46,7 @@ class PlaneExtractor {
  private:
   struct Cell;
 
+  double NoiseOfCells() const;
   void FitCells(const cv::Mat& depth);
   Cell FitCell(const cv::Mat& depth, int column, int row) const;
   void Grow(int seed, Cell* region);
@@ -60,6 +61,8 @@ class PlaneExtractor {
   double correlation_area_ = 0.0;      // pixels that share one error
   std::vector<Eigen::Vector2f> rays_;  // x / z and y / z of the pixels that are used
   std::vector<Cell> cells_;
+  double noise_ = 0.0;
+  Eigen::Matrix3d scatter_;
 };
 
 }  // namespace msc_vo

@@ -21,8 +21,9 @@ class PlaneMap {
   /// Ids of extra blocks below this one are planes.
   static constexpr int64_t kFirstBlock = -(int64_t{1} << 62);
 
-  /// Matches the planes of a keyframe of the map, and adds those that are new.
-  void AddKeyframe(const Map& map, KeyframeId keyframe);
+  /// Matches the planes of a keyframe of the map, whose pose has a covariance (tangent of
+  /// Rigid3Manifold), and adds those that are new.
+  void AddKeyframe(const Map& map, KeyframeId keyframe, const PoseCovariance& covariance);
   /// Forgets keyframes that were culled, and the planes that only they observed.
   void Renew(const Map& map);
   /// Takes over the planes of a map that was joined with that of this one; the keyframes of both

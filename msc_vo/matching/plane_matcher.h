@@ -6,16 +6,17 @@
 #include <vector>
 
 #include "msc_vo/frame/plane_feature.h"
+#include "msc_vo/geometry/pose_covariance.h"
 #include "msc_vo/geometry/rigid3.h"
 #include "msc_vo/map/plane_landmark.h"
 
 namespace msc_vo {
 
-/// Matches the planes of a frame with those of the map by their geometry, from a predicted pose: a
-/// feature is the plane whose inverse depths are nearest to it where it was seen. Parts of one wall
-/// are matched with the same plane.
+/// Matches the planes of a frame with those of the map by their geometry, from a pose with a
+/// covariance (tangent of Rigid3Manifold): a feature is the likeliest plane that it does not
+/// contradict (chi-square). Parts of one wall are matched with the same plane.
 std::vector<PlaneMatch> MatchPlanes(const std::vector<PlaneFeature>& features, const MapPlanes& map,
-                                    const Rigid3& cam_from_world);
+                                    const Rigid3& cam_from_world, const PoseCovariance& covariance);
 
 /// Whether planes with these normals determine a pose: their normals span three directions.
 bool DetermineAPose(const std::vector<PlaneFeature>& features);

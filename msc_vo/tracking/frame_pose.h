@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "msc_vo/matching/local_map.h"
@@ -61,8 +62,13 @@ class PoseEstimator {
  public:
   /// The arguments must outlive the object.
   PoseEstimator(const TrackerOptions& options, const Map& map, const NoiseScale& noise_scale,
-                const std::vector<PoseFactor>& factors)
-      : options_(options), map_(map), noise_scale_(noise_scale), factors_(factors) {}
+                std::vector<PoseFactor> factors)
+      : options_(options), map_(map), noise_scale_(noise_scale), factors_(std::move(factors)) {}
+
+  /// Adds custom factors to those of the next estimates.
+  void AddFactors(const std::vector<PoseFactor>& factors) {
+    factors_.insert(factors_.end(), factors.begin(), factors.end());
+  }
 
   const Map& map() const { return map_; }
 
@@ -86,7 +92,7 @@ class PoseEstimator {
   const TrackerOptions& options_;
   const Map& map_;
   const NoiseScale& noise_scale_;
-  const std::vector<PoseFactor>& factors_;
+  std::vector<PoseFactor> factors_;
   TrackingTimes times_;
 };
 

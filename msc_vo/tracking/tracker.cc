@@ -9,6 +9,7 @@
 
 #include "msc_vo/factors/pose_prior.h"
 #include "msc_vo/frame/feature_counts.h"
+#include "msc_vo/geometry/pose_covariance.h"
 #include "msc_vo/matching/local_map.h"
 #include "msc_vo/matching/plane_matcher.h"
 #include "msc_vo/pose_estimation/plane_factors.h"
@@ -19,6 +20,9 @@
 namespace msc_vo {
 
 namespace {
+
+// The camera may stop or turn at any time: of hand-held cameras, metres and radians per second.
+constexpr double kSpeedSigma = 0.5, kTurnSigma = 1.0;
 
 void SetPose(const Map& map, const Rigid3& cam_from_world, KeyframeId reference,
              TrackedFrame* tracked) {
@@ -44,6 +48,31 @@ PoseSummary WithDynamicObjects(PoseSummary last, const PoseSummary& first) {
     last.dynamic_cells = first.dynamic_cells;
   }
   return last;
+}
+
+// Error of a pose that is predicted over an interval (seconds), of a hand-held camera: it
+// accelerates, or, if its velocity is not known, moves.
+PoseCovariance MotionCovariance(double seconds, bool has_velocity) {
+  constexpr double kAcceleration = 3.0, kTurnAcceleration = 6.0;  // m/s^2, rad/s^2
+  const double of_velocity = seconds * seconds;
+  return has_velocity
+             ? IsotropicCovariance(kTurnAcceleration * of_velocity, kAcceleration * of_velocity)
+             : IsotropicCovariance(kTurnSigma * seconds, kSpeedSigma * seconds);
+}
+
+// What is known of the pose where planes leave it free, with sigmas that grow since the last frame
+// that was determined.
+PoseFactor MotionPrior(const Rigid3& cam_from_world, double seconds) {
+  const PoseCovariance covariance = CovarianceOfCamera(
+      cam_from_world, IsotropicCovariance(kTurnSigma * seconds, kSpeedSigma * seconds));
+  return {"motion", PosePrior::CreateShared(cam_from_world, covariance), nullptr};
+}
+
+std::vector<PlaneFeature> MatchedFeatures(const std::vector<PlaneFeature>& features,
+                                          const std::vector<PlaneMatch>& matches) {
+  std::vector<PlaneFeature> matched;
+  for (const PlaneMatch& match : matches) matched.push_back(features[match.feature]);
+  return matched;
 }
 
 }  // namespace
@@ -82,8 +111,7 @@ TrackedFrame Tracker::TrackFrame(const std::shared_ptr<const Frame>& raw,
   const std::optional<InitialPose> initial = FindInitialPose(
       options_, *input.frame, last_, input.prediction, keyframes_to_try, &estimator);
   TrackedFrame tracked = initial ? TrackInMap(input, *initial, &estimator) : TrackInGap(input);
-  tracked.has_pose_factors = input.has_custom_factors;
-  tracked.planes = input.planes;
+  tracked.has_pose_factors = !pose_factors_.empty();
   tracked.times = estimator.times();
   return tracked;
 }
@@ -105,7 +133,7 @@ TrackedFrame Tracker::TrackInMap(const Input& input, const InitialPose& initial,
 }
 
 TrackedFrame Tracker::TrackInGap(const Input& input) {
-  if (input.is_held_by_planes) return TrackByPlanes(input);
+  if (std::optional<TrackedFrame> tracked = TrackByPlanes(input)) return *tracked;
   const Map& map = input.snapshot.map;
   in_gap_ = true;
   TrackedFrame tracked = BridgeWithPrediction(input);
@@ -117,17 +145,48 @@ TrackedFrame Tracker::TrackInGap(const Input& input) {
   return tracked;
 }
 
-TrackedFrame Tracker::TrackByPlanes(const Input& input) {
-  TrackedFrame tracked = BridgeWithPrediction(input);
-  // A direction that the planes leave free has the sigma of the prior, which begins small.
-  tracked.status = input.is_determined_by_planes ? ClassifyStatus(options_, tracked.pose)
-                                                 : TrackingStatus::kWeak;
-  const bool is_certain = tracked.status == TrackingStatus::kTracked;
-  if (is_certain && policy_.IsDue(*input.frame, tracked.matches, is_certain)) {
-    tracked.keyframe.id = MakeKeyframe(input.frame->timestamp);
+// After a gap, a prediction does not tell parallel planes apart.
+std::optional<TrackedFrame> Tracker::TrackByPlanes(const Input& input) {
+  const Frame& frame = *input.frame;
+  const double seconds = frame.timestamp - last_.frame->timestamp;
+  if (in_gap_ || seconds > options_.max_prediction) return std::nullopt;
+  // Behind a frame that was not determined, the velocity is that of noise.
+  const bool has_velocity = last_determined_ == last_.frame->timestamp;
+  const bool has_pose = input.prediction.by_factors.usable;
+  PoseCovariance covariance = input.prediction.by_factors.covariance;
+  Rigid3 cam_from_world = input.prediction.cam_from_world;
+  if (!has_pose) {
+    if (!has_velocity) cam_from_world = input.last_from_world;
+    covariance = ComposeCovariances(cam_from_world * input.last_from_world.Inverse(),
+                                    MotionCovariance(seconds, has_velocity),
+                                    input.last_from_world, last_covariance_);
   }
-  in_gap_ = false;
-  segment_start_.Tracked(input.frame->timestamp);
+  const MapPlanes& map = input.snapshot.planes;
+  const std::vector<PlaneMatch> matches = MatchPlanes(frame.planes, map, cam_from_world, covariance);
+  if (matches.empty()) return std::nullopt;
+  const bool is_determined = DetermineAPose(MatchedFeatures(frame.planes, matches));
+  std::vector<PoseFactor> factors = MakePlanePoseFactors(frame.planes, matches, map);
+  factors.insert(factors.end(), pose_factors_.begin(), pose_factors_.end());
+  if (!has_pose && !is_determined) {
+    factors.push_back(MotionPrior(cam_from_world, frame.timestamp - last_determined_));
+  }
+  FrameMatches none;
+  Input by_planes = input;
+  PosePrediction& pose = by_planes.prediction;
+  pose.cam_from_world = cam_from_world;
+  pose.by_factors = EstimateFramePose(options_.pose, frame, input.snapshot.map,
+                                      input.snapshot.noise_scale, factors, &pose.cam_from_world,
+                                      &none);
+  if (!pose.by_factors.usable) return std::nullopt;
+  TrackedFrame tracked = BridgeWithPrediction(by_planes);
+  tracked.planes = matches;
+  // A direction that the planes leave free has the sigma of the prior, which begins small.
+  tracked.status = is_determined ? ClassifyStatus(options_, tracked.pose) : TrackingStatus::kWeak;
+  const bool is_certain = tracked.status == TrackingStatus::kTracked;
+  if (is_certain && policy_.IsDue(frame, tracked.matches, is_certain)) {
+    tracked.keyframe.id = MakeKeyframe(frame.timestamp);
+  }
+  segment_start_.Tracked(frame.timestamp);
   Follow(&tracked);
   return tracked;
 }
@@ -162,6 +221,7 @@ void Tracker::StartSegment(SegmentStart start, TrackedFrame* tracked) {
   tracked->keyframe.id = MakeKeyframe(timestamp);
   motion_.Reset(timestamp);
   last_determined_ = timestamp;
+  last_covariance_.setZero();
   plausibility_ = PosePlausibility();
   in_gap_ = false;
   segment_start_.Started(timestamp);
@@ -174,7 +234,7 @@ Tracker::Input Tracker::Predict(const std::shared_ptr<const Frame>& raw,
   last_.UpdateTo(snapshot);
   const double timestamp = raw->timestamp;
   const double readout_time = CompensationReadoutTime(snapshot);
-  Input input{snapshot, raw, raw, last_.CamFromWorld(snapshot.map), {}, {}};
+  Input input{snapshot, raw, raw, last_.CamFromWorld(snapshot.map), {}};
   if (readout_time != 0.0) {
     input.frame = CompensateFrame(raw, motion_.VelocityAt(timestamp), readout_time);
   }
@@ -185,49 +245,12 @@ Tracker::Input Tracker::Predict(const std::shared_ptr<const Frame>& raw,
     pose_factors_ = pose_factor_callback_({timestamp, last_.frame->timestamp, input.last_from_world,
                                            predicted, snapshot.world, snapshot.extra_blocks});
   }
-  input.has_custom_factors = !pose_factors_.empty();
-  AddPlanes(&input);
   if (pose_factors_.empty()) return input;
-  std::vector<PoseFactor> factors = pose_factors_;
-  const bool has_only_planes = !input.planes.empty() && !input.has_custom_factors;
-  if (has_only_planes && !input.is_determined_by_planes) factors.push_back(MotionPrior(input));
   FrameMatches none;
-  input.prediction.by_factors = EstimateFramePose(options_.pose, *input.frame, snapshot.map,
-                                                  snapshot.noise_scale, factors, &predicted, &none);
-  input.is_held_by_planes = !input.planes.empty() && input.prediction.by_factors.usable;
+  input.prediction.by_factors =
+      EstimateFramePose(options_.pose, *input.frame, snapshot.map, snapshot.noise_scale,
+                        pose_factors_, &predicted, &none);
   return input;
-}
-
-// After a gap, a prediction does not tell parallel planes apart.
-void Tracker::AddPlanes(Input* input) {
-  const bool follows =
-      !in_gap_ && input->frame->timestamp - last_.frame->timestamp <= options_.max_prediction;
-  if (!follows) return;
-  const MapPlanes& map = input->snapshot.planes;
-  input->planes = MatchPlanes(input->frame->planes, map, input->prediction.cam_from_world);
-  for (PoseFactor& factor : MakePlanePoseFactors(input->frame->planes, input->planes, map)) {
-    pose_factors_.push_back(std::move(factor));
-  }
-  std::vector<PlaneFeature> matched;
-  for (const PlaneMatch& match : input->planes) {
-    matched.push_back(input->frame->planes[match.feature]);
-  }
-  input->is_determined_by_planes = DetermineAPose(matched);
-}
-
-// What is known of the pose where planes leave it free: the prediction behind a frame that was
-// determined, else the last pose, as a velocity would be that of noise; with sigmas that grow since
-// that frame.
-PoseFactor Tracker::MotionPrior(const Input& input) const {
-  // The camera may stop or turn at any time: of hand-held cameras, metres and radians per second.
-  constexpr double kSpeedSigma = 0.5, kTurnSigma = 1.0;
-  const double seconds = input.frame->timestamp - last_determined_;
-  PoseCovariance covariance = PoseCovariance::Identity();
-  covariance.topLeftCorner<3, 3>() *= std::pow(kTurnSigma * seconds, 2);
-  covariance.bottomRightCorner<3, 3>() *= std::pow(kSpeedSigma * seconds, 2);
-  const bool has_velocity = last_determined_ == last_.frame->timestamp;
-  const Rigid3& mean = has_velocity ? input.prediction.cam_from_world : input.last_from_world;
-  return {"motion", PosePrior::CreateShared(mean, covariance), nullptr};
 }
 
 TrackedFrame Tracker::BridgeWithPrediction(const Input& input) const {
@@ -276,6 +299,10 @@ TrackedFrame Tracker::TrackLocalMap(const Input& input, const FramePose& initial
     return SelectLocalMap(map, *tracked.frame, initial.cam_from_world, initial.matches,
                           ReferenceOrNewest(map, last_.reference), options_.max_local_keyframes);
   });
+  tracked.planes = MatchPlanes(tracked.frame->planes, input.snapshot.planes,
+                               initial.cam_from_world, 9.0 * initial.summary.covariance);
+  estimator->AddFactors(
+      MakePlanePoseFactors(tracked.frame->planes, tracked.planes, input.snapshot.planes));
   const std::optional<FramePose> refined =
       estimator->MatchAndEstimate(options_.pose, *tracked.frame, local, options_.local_map_radius,
                                   initial.cam_from_world, LandmarkInliers(initial.matches));
@@ -339,6 +366,7 @@ void Tracker::Follow(TrackedFrame* tracked) {
     motion_.Observe(timestamp, *tracked->cam_from_last);
   }
   last_ = LastFrame(*tracked);
+  last_covariance_ = tracked->pose.covariance;
 }
 
 }  // namespace msc_vo

@@ -58,10 +58,10 @@ class Tracker {
   template <typename Archive>
   void Serialize(Archive& archive) {
     auto& [options, policy, motion_model, callback, factors, last, next_keyframe, places,
-           relocalization, segment_start, plausibility, in_gap, last_determined] =
+           relocalization, segment_start, plausibility, in_gap, last_determined, last_covariance] =
         *this;  // all members, or it does not compile
     archive(policy, motion_model, last, next_keyframe, places, relocalization, segment_start,
-            plausibility, in_gap, last_determined);
+            plausibility, in_gap, last_determined, last_covariance);
   }
 
  private:
@@ -72,11 +72,6 @@ class Tracker {
     std::shared_ptr<const Frame> frame;  // compensated with the predicted velocity
     Rigid3 last_from_world;              // pose of `last_` in the map
     PosePrediction prediction;
-    std::vector<PlaneMatch> planes;        // of `frame`
-    bool has_custom_factors = false;       // of the callback, over its pose
-    bool is_determined_by_planes = false;  // in all directions, by those of the map
-    bool is_held_by_planes =
-        false;  // `prediction.by_factors` is their pose, with that of the last frame
   };
 
   // Makes the first frame a keyframe if it has enough features with depth.
@@ -90,14 +85,12 @@ class Tracker {
   // Updates the last frame to the map, predicts the pose and asks for the pose factors.
   Input Predict(const std::shared_ptr<const Frame>& raw, const MapSnapshot& snapshot,
                 bool use_factors);
-  // Matches the planes of the frame, if it follows a tracked one, and adds their factors.
-  void AddPlanes(Input* input);
-  PoseFactor MotionPrior(const Input& input) const;
   // Without an initial pose: bridges the frame, unless it begins a new segment, or a new part of
   // the map, where pose factors have moved the camera.
   TrackedFrame TrackInGap(const Input& input);
-  // Without matches of points and lines, by the planes alone.
-  TrackedFrame TrackByPlanes(const Input& input);
+  // Without an initial pose: by the planes and the pose factors; std::nullopt if the frame does not
+  // follow one with a pose, or matches no plane.
+  std::optional<TrackedFrame> TrackByPlanes(const Input& input);
   // The frame with the predicted pose, predicted or lost.
   TrackedFrame BridgeWithPrediction(const Input& input) const;
   // Whether the map is given up, because it could not be found for too long.
@@ -146,6 +139,7 @@ class Tracker {
   PosePlausibility plausibility_;
   bool in_gap_ = false;           // frames since `last_` have no pose
   double last_determined_ = 0.0;  // time of the last frame whose pose was certain, seconds
+  PoseCovariance last_covariance_ = PoseCovariance::Zero();  // of the pose of `last_`
 };
 
 }  // namespace msc_vo
