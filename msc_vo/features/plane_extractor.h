@@ -46,19 +46,28 @@ class PlaneExtractor {
  private:
   struct Cell;
 
+  void ComputeRays(const LensDistortion& distortion);
   void FitCells(const cv::Mat& depth);
-  Cell FitCell(const cv::Mat& depth, int column, int row) const;
-  void Grow(int seed, Cell* region);
+  Cell FitCell(const cv::Mat& depth, int column, int row);
+  std::vector<int> Grow(int seed, Cell* region);
   bool LiesOn(const Cell& cell, const Eigen::Vector3d& inverse_depth) const;
-  PlaneFeature MakeFeature(const Cell& region) const;
+  PlaneFeature MakeFeature(const Cell& region, const std::vector<int>& cells) const;
+  ConvexPolygon Hull(const std::vector<int>& cells) const;
 
   PlaneExtractorOptions options_;
   PinholeCamera camera_;
   int cell_size_ = 0;  // pixels
   int step_ = 0;       // between the pixels that are used
   int columns_ = 0, rows_ = 0;
-  double correlation_area_ = 0.0;      // pixels that share one error
-  std::vector<Eigen::Vector2f> rays_;  // x / z and y / z of the pixels that are used
+  int pixels_per_cell_ = 0;        // that are used, and padding to whole vector registers
+  double correlation_area_ = 0.0;  // pixels that share one error
+  // x / z and y / z of the pixels that are used, cell by cell, and the largest depth that is valid
+  // there: 0 where the pixel does not belong to the undistorted image, and of padding.
+  std::vector<float> rays_x_, rays_y_, max_depth_;
+  // x / z and y / z of the corners of the cells; NaN if they do not belong to the undistorted
+  // image.
+  std::vector<Eigen::Vector2d> corners_;
+  std::vector<float> cell_depth_;  // of the pixels of a cell that are used
   std::vector<Cell> cells_;
 };
 

@@ -3,7 +3,11 @@
 
 #pragma once
 
+#include <cstddef>
+
 #include <Eigen/Core>
+
+#include "msc_vo/geometry/convex_polygon.h"
 
 namespace msc_vo {
 
@@ -17,6 +21,11 @@ struct PlaneFeature {
   /// depth between two planes where this one was seen.
   Eigen::Matrix3d mean_square_ray = Eigen::Matrix3d::Zero();
   int num_pixels = 0;
+  /// Convex hull of its pixels as rays (x / z, y / z), kMaxHullVertices or fewer; empty if the
+  /// extent is unknown.
+  ConvexPolygon hull = {};
+
+  static constexpr size_t kMaxHullVertices = 12;
 
   /// Unit normal towards the camera, and the distance of the camera from the plane, metres.
   Eigen::Vector3d Normal() const { return -inverse_depth.normalized(); }
@@ -24,7 +33,7 @@ struct PlaneFeature {
 
   template <typename Archive>
   void Serialize(Archive& archive) {
-    archive.Fields(*this, inverse_depth, covariance, mean_square_ray, num_pixels);
+    archive.Fields(*this, inverse_depth, covariance, mean_square_ray, num_pixels, hull);
   }
 };
 
