@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "msc_vo/geometry/convex_polygon.h"
+#include "msc_vo/geometry/plane_extent.h"
 
 namespace msc_vo {
 
@@ -26,10 +27,22 @@ struct PlaneFeature {
   ConvexPolygon hull = {};
 
   static constexpr size_t kMaxHullVertices = 12;
+  static constexpr double kMinInverseDepth = 0.02;  ///< of a vertex of Extent(), 1/metres
 
   /// Unit normal towards the camera, and the distance of the camera from the plane, metres.
   Eigen::Vector3d Normal() const { return -inverse_depth.normalized(); }
   double Distance() const { return 1.0 / inverse_depth.norm(); }
+  /// The hull on the plane, camera frame, metres.
+  PlaneExtent Extent() const {
+    PlaneExtent extent;
+    for (const Eigen::Vector2d& vertex : hull) {
+      const Eigen::Vector3d ray(vertex.x(), vertex.y(), 1.0);
+      // The hull may reach a little beyond what was measured, but not to the horizon.
+      if (inverse_depth.dot(ray) >= kMinInverseDepth)
+        extent.push_back(ray / inverse_depth.dot(ray));
+    }
+    return extent;
+  }
 
   template <typename Archive>
   void Serialize(Archive& archive) {
