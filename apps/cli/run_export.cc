@@ -93,18 +93,20 @@ void AddImages(const RunExport& arguments, const std::vector<TimedPose>& poses, 
   }
 }
 
-// Points and lines, if they are in the world of the poses.
+// Points, lines and planes, if they are in the world of the poses.
 void AddMap(const std::string& folder, int world, McapRun* run) {
   const RecordedRun recorded = ReadRecordedRun(folder);
   if (recorded.map_world && *recorded.map_world != world) {
     PrintWarning(
         FormatText("%s: its map is in the world of segment %d, and the poses are in that "
-                   "of segment %d; points and lines are left out",
+                   "of segment %d; points, lines and planes are left out",
                    folder.c_str(), *recorded.map_world, world));
     return;
   }
   run->points = ReadPointsPly(FileOf(folder, "map.ply"));
   run->lines = ReadColoredEdgesPly(FileOf(folder, "lines.ply"));
+  const std::string planes = FileOf(folder, "planes.ply");
+  if (std::filesystem::exists(planes)) run->planes = ReadColoredPolygonsPly(planes);
 }
 
 void WriteMcap(const RunExport& arguments) {

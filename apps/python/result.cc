@@ -61,6 +61,43 @@ py::array LineAxesOf(const OdometryResult& result) {
   return axes;
 }
 
+// (M, 4) rows n, d.
+RowMajorMatrix PlanesOf(const OdometryResult& result) {
+  RowMajorMatrix rows(static_cast<Eigen::Index>(result.planes.size()), 4);
+  for (size_t i = 0; i < result.planes.size(); ++i) {
+    rows.row(static_cast<Eigen::Index>(i)) = result.planes[i].plane.params.transpose();
+  }
+  return rows;
+}
+
+py::list PlaneExtentsOf(const OdometryResult& result) {
+  py::list extents;
+  for (const MapPlane& plane : result.planes) {
+    RowMajorMatrix vertices(static_cast<Eigen::Index>(plane.extent.size()), 3);
+    for (size_t i = 0; i < plane.extent.size(); ++i) {
+      vertices.row(static_cast<Eigen::Index>(i)) = plane.extent[i].transpose();
+    }
+    extents.append(py::cast(vertices));
+  }
+  return extents;
+}
+
+py::array PlaneObservationsOf(const OdometryResult& result) {
+  py::array_t<int> counts(static_cast<py::ssize_t>(result.planes.size()));
+  for (size_t i = 0; i < result.planes.size(); ++i) {
+    counts.mutable_at(i) = result.planes[i].num_observations;
+  }
+  return counts;
+}
+
+py::array PlaneAxesOf(const OdometryResult& result) {
+  py::array_t<int> axes(static_cast<py::ssize_t>(result.planes.size()));
+  for (size_t i = 0; i < result.planes.size(); ++i) {
+    axes.mutable_at(i) = result.planes[i].axis.value_or(-1);
+  }
+  return axes;
+}
+
 py::array EstimatedOf(const OdometryResult& result) {
   py::array_t<bool> estimated(static_cast<py::ssize_t>(result.frames.size()));
   for (size_t i = 0; i < result.frames.size(); ++i) {
@@ -213,6 +250,21 @@ void BindCalibrationOf(ResultClass* result) {
           "'structured-light', 'tof', 'stereo' or 'lidar'; 'auto': too little depth to tell.");
 }
 
+void BindPlanesOf(ResultClass* result) {
+  result
+      ->def_property_readonly("planes", &PlanesOf,
+                              "(M, 4) rows n, d of map planes n . x + d = 0: unit normal towards "
+                              "the cameras, metres. Empty unless the run uses planes.")
+      .def_property_readonly("plane_extents", &PlaneExtentsOf,
+                             "M arrays (K, 3), the vertices of the observed part of each plane, "
+                             "counter-clockwise seen from its front; K = 0: unknown.")
+      .def_property_readonly("plane_observations", &PlaneObservationsOf,
+                             "(M,) number of keyframes that observe each plane.")
+      .def_property_readonly("plane_axes", &PlaneAxesOf,
+                             "(M,) the Manhattan axis (0, 1, 2) that the normal of a plane is "
+                             "parallel to; -1: none.");
+}
+
 void BindAxesOf(ResultClass* result) {
   using Result = OdometryResult;
   result
@@ -234,6 +286,7 @@ void BindResult(py::module_* module) {
                      "but the measured times are, bit by bit.");
   BindCalibrationOf(&result);
   BindAxesOf(&result);
+  BindPlanesOf(&result);
   result
       .def_property_readonly("trajectory", &AllRows,
                              "(N, 8) rows t tx ty tz qx qy qz qw, one per frame, camera in world; "
@@ -276,7 +329,7 @@ void BindResult(py::module_* module) {
                              "Sessions of the map that the run began with, by world: name, world "
                              "and world_from_cam, a list of the (4, 4) poses of their keyframes.")
       .def_readonly("map_world", &OdometryResult::map_world,
-                    "Number of the world of keyframes, points, lines and axes.")
+                    "Number of the world of keyframes, points, lines, planes and axes.")
       .def_readonly("last_window", &OdometryResult::last_window,
                     "WindowSummary of the last local bundle adjustment.")
       .def_readonly("num_late_maps", &OdometryResult::num_late_maps,

@@ -79,6 +79,12 @@ void FieldsOf(Archive& archive, MapLine& value) {
 }
 
 template <typename Archive>
+void FieldsOf(Archive& archive, MapPlane& value) {
+  auto& [plane, extent, num_observations, axis] = value;
+  archive(plane, extent, num_observations, axis);
+}
+
+template <typename Archive>
 void FieldsOf(Archive& archive, MapAxes& value) {
   auto& [state, num_refinements, world_from_axes, sigma, deviation] = value;
   archive(state, num_refinements, world_from_axes, sigma, deviation);
@@ -98,12 +104,12 @@ void FieldsOf(Archive& archive, SessionPath& value) {
 
 template <typename Archive>
 void FieldsOf(Archive& archive, OdometryResult& value) {
-  auto& [frames, segments, loops, map_world, keyframes, earlier_sessions, points, lines, axes,
-         noise_scale, depth_sensor, readout_time, readout_time_sigma, calibration, intrinsics,
+  auto& [frames, segments, loops, map_world, keyframes, earlier_sessions, points, lines, planes,
+         axes, noise_scale, depth_sensor, readout_time, readout_time_sigma, calibration, intrinsics,
          depth_camera, extra_blocks, last_window, num_late_maps] = value;
   AllFieldsOf(archive, frames, segments, loops, map_world, keyframes, earlier_sessions, points,
-              lines, axes, noise_scale, depth_sensor, readout_time, readout_time_sigma, calibration,
-              intrinsics, depth_camera, extra_blocks, last_window, num_late_maps);
+              lines, planes, axes, noise_scale, depth_sensor, readout_time, readout_time_sigma,
+              calibration, intrinsics, depth_camera, extra_blocks, last_window, num_late_maps);
 }
 
 // Errors of a trajectory.

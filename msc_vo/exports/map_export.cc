@@ -5,6 +5,10 @@
 
 #include <filesystem>
 #include <limits>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -74,6 +78,25 @@ std::vector<MapLine> LinesOf(const SavedSubMap& submap) {
   return lines;
 }
 
+std::vector<MapPlane> PlanesOf(const SavedSubMap& submap) {
+  std::map<LandmarkId, int> counts;
+  for (const auto& [keyframe, matches] : submap.planes.observations) {
+    std::set<LandmarkId> observed;
+    for (const PlaneMatch& match : matches) observed.insert(match.plane);
+    for (const LandmarkId id : observed) ++counts[id];
+  }
+  std::vector<MapPlane> planes;
+  for (const auto& [id, plane] : submap.planes.planes) {
+    const Rigid3 world_from_host = submap.map.CamFromWorld(plane.host).Inverse();
+    MapPlane exported{world_from_host * plane.in_host, world_from_host * plane.extent, counts[id],
+                      std::nullopt};
+    for (Eigen::Vector3d& vertex : exported.extent) vertex = Project(exported.plane, vertex);
+    if (submap.axes) exported.axis = AxisOfPlane(*submap.axes, exported.plane);
+    planes.push_back(std::move(exported));
+  }
+  return planes;
+}
+
 // The keyframes of session `session` in a submap.
 std::vector<TimedPose> KeyframesOf(const MapContents& contents, size_t session, const Map& map) {
   const KeyframeId first = contents.sessions[session].first_keyframe;
@@ -120,6 +143,9 @@ void ExportMap(const MapContents& contents, const std::string& folder) {
     MakeFolder(path.string());
     WriteFile((path / "points.ply").string(), FormatPointsPly(PointsOf(submap.map)));
     WriteFile((path / "lines.ply").string(), FormatLinesPly(LinesOf(submap)));
+    if (!submap.planes.planes.empty()) {
+      WriteFile((path / "planes.ply").string(), FormatPlanesPly(PlanesOf(submap)));
+    }
     WriteFile((path / "graph.g2o").string(), FormatG2o(submap, contents.loops));
     for (size_t session = 0; session < contents.sessions.size(); ++session) {
       const std::vector<TimedPose> poses = KeyframesOf(contents, session, submap.map);

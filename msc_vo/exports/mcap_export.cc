@@ -66,6 +66,13 @@ void WriteMap(const McapRun& run, RosBag* bag) {
   }
   bag->Write("/msc_vo/map_lines", "visualization_msgs/MarkerArray", time,
              FormatLineMarkers(header, lines, kLineWidth));
+  if (run.planes.empty()) return;
+  std::vector<ColoredPolygon> planes = run.planes;
+  for (ColoredPolygon& plane : planes) {
+    for (Eigen::Vector3d& vertex : plane.vertices) vertex = WithRosAxes(vertex);
+  }
+  bag->Write("/msc_vo/map_planes", "visualization_msgs/MarkerArray", time,
+             FormatPolygonMarkers(header, planes));
 }
 
 // The mean velocity since the frame before; zero for the first one.

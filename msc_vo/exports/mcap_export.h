@@ -30,6 +30,7 @@ struct McapRun {
   std::vector<McapFrame> frames;  ///< by ascending time
   std::vector<MapPoint> points;
   std::vector<ColoredEdge> lines;
+  std::vector<ColoredPolygon> planes;
   CameraIntrinsics camera;  ///< of the images, if there are any
 };
 
@@ -43,6 +44,7 @@ struct McapRun {
 /// | /msc_vo/path | nav_msgs/Path | map; once, at the begin |
 /// | /msc_vo/map_points | sensor_msgs/PointCloud2 | map; once |
 /// | /msc_vo/map_lines | visualization_msgs/MarkerArray | map; once |
+/// | /msc_vo/map_planes | visualization_msgs/MarkerArray | map; once, if there are planes |
 /// | /camera/color/image_raw/compressed | sensor_msgs/CompressedImage | camera_optical_frame |
 /// | /camera/color/camera_info | sensor_msgs/CameraInfo | camera_optical_frame |
 ///

@@ -37,9 +37,47 @@ void AddCovariance(const std::optional<RosCovariance>& covariance, CdrWriter* cd
   }
 }
 
-void AddColor(const std::array<uint8_t, 3>& color, CdrWriter* cdr) {
+void AddColor(const std::array<uint8_t, 3>& color, float opacity, CdrWriter* cdr) {
   for (const uint8_t channel : color) cdr->AddFloat(static_cast<float>(channel) / 255.0f);
-  cdr->AddFloat(1.0f);
+  cdr->AddFloat(opacity);
+}
+
+// What the markers of a kind have in common.
+struct MarkerStyle {
+  const char* name_space;
+  int32_t type;
+  Eigen::Vector3d scale;
+  float opacity;
+};
+
+// Positions of a list marker, each with a colour.
+struct MarkerList {
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<std::array<uint8_t, 3>> colors;
+};
+
+// visualization_msgs/MarkerArray of one list marker.
+std::string FormatMarkers(const MessageHeader& header, const MarkerStyle& style,
+                          const MarkerList& list) {
+  CdrWriter cdr;
+  cdr.AddWord(1);
+  AddHeader(header, &cdr);
+  cdr.AddString(style.name_space).AddInt(0).AddInt(style.type).AddInt(0);  // id 0, add
+  AddPose(Rigid3(), &cdr);
+  AddVector(style.scale, &cdr);
+  AddColor({255, 255, 255}, style.opacity, &cdr);
+  cdr.AddInt(0).AddWord(0).AddByte(0);  // for ever, not locked to its frame
+  const auto size = static_cast<uint32_t>(list.positions.size());
+  cdr.AddWord(size);
+  for (const Eigen::Vector3d& position : list.positions) AddVector(position, &cdr);
+  cdr.AddWord(size);
+  for (const std::array<uint8_t, 3>& color : list.colors) AddColor(color, style.opacity, &cdr);
+  cdr.AddString("");  // no texture
+  AddHeader({}, &cdr);
+  cdr.AddString("").AddBytes("").AddWord(0);      // its image and coordinates
+  cdr.AddString("").AddString("").AddString("");  // no text, no mesh
+  cdr.AddBytes("").AddByte(0);
+  return cdr.Message();
 }
 
 // sensor_msgs/PointField of one number.
@@ -118,31 +156,28 @@ std::string FormatPointCloud(const MessageHeader& header, const std::vector<MapP
 std::string FormatLineMarkers(const MessageHeader& header, const std::vector<ColoredEdge>& lines,
                               double width) {
   constexpr int32_t kLineList = 5;
-  CdrWriter cdr;
-  cdr.AddWord(1);
-  AddHeader(header, &cdr);
-  cdr.AddString("map_lines").AddInt(0).AddInt(kLineList).AddInt(0);  // namespace, id, type, add
-  AddPose(Rigid3(), &cdr);
-  AddVector({width, 0.0, 0.0}, &cdr);
-  AddColor({255, 255, 255}, &cdr);
-  cdr.AddInt(0).AddWord(0).AddByte(0);  // for ever, not locked to its frame
-  const auto num_ends = static_cast<uint32_t>(2 * lines.size());
-  cdr.AddWord(num_ends);
+  MarkerList list;
   for (const ColoredEdge& line : lines) {
-    AddVector(line.segment.start, &cdr);
-    AddVector(line.segment.end, &cdr);
+    list.positions.insert(list.positions.end(), {line.segment.start, line.segment.end});
+    list.colors.insert(list.colors.end(), 2, line.color);
   }
-  cdr.AddWord(num_ends);
-  for (const ColoredEdge& line : lines) {
-    AddColor(line.color, &cdr);
-    AddColor(line.color, &cdr);
+  return FormatMarkers(header, {"map_lines", kLineList, {width, 0.0, 0.0}, 1.0F}, list);
+}
+
+std::string FormatPolygonMarkers(const MessageHeader& header,
+                                 const std::vector<ColoredPolygon>& polygons) {
+  constexpr int32_t kTriangleList = 11;
+  constexpr float kOpacity = 0.5F;
+  MarkerList list;
+  for (const ColoredPolygon& polygon : polygons) {
+    for (size_t i = 2; i < polygon.vertices.size(); ++i) {
+      for (const size_t corner : {size_t{0}, i - 1, i}) {
+        list.positions.push_back(polygon.vertices[corner]);
+        list.colors.push_back(polygon.color);
+      }
+    }
   }
-  cdr.AddString("");  // no texture
-  AddHeader({}, &cdr);
-  cdr.AddString("").AddBytes("").AddWord(0);      // its image and coordinates
-  cdr.AddString("").AddString("").AddString("");  // no text, no mesh
-  cdr.AddBytes("").AddByte(0);
-  return cdr.Message();
+  return FormatMarkers(header, {"map_planes", kTriangleList, {1.0, 1.0, 1.0}, kOpacity}, list);
 }
 
 std::string FormatCompressedImage(const MessageHeader& header, const std::string& format,

@@ -64,6 +64,10 @@ std::string FormatPointCloud(const MessageHeader& header, const std::vector<MapP
 std::string FormatLineMarkers(const MessageHeader& header, const std::vector<ColoredEdge>& lines,
                               double width);
 
+/// visualization_msgs/MarkerArray of one TRIANGLE_LIST: the polygons, translucent.
+std::string FormatPolygonMarkers(const MessageHeader& header,
+                                 const std::vector<ColoredPolygon>& polygons);
+
 /// sensor_msgs/CompressedImage. `format`: "png" or "jpeg".
 std::string FormatCompressedImage(const MessageHeader& header, const std::string& format,
                                   std::string_view data);

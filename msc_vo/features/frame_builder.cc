@@ -73,7 +73,6 @@ struct FrameBuilder::State {
     of_planes.min_depth = options.min_depth;
     of_planes.max_depth = options.max_depth;
     of_planes.inverse_depth_noise = options.noise.inverse_depth_noise;
-    of_planes.common_sigma = options.noise.inverse_depth_sigma;
     planes.emplace(of_planes, camera, distortion);
   }
 

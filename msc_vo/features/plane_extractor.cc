@@ -6,12 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include "msc_vo/camera/image_scale.h"
@@ -22,6 +20,7 @@ namespace msc_vo {
 namespace {
 
 using Eigen::Matrix3d;
+using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 // Lengths are pixels at an image width of 640.
@@ -32,15 +31,30 @@ constexpr int kCellSize = 16;
 // Spacing of the pixels that are used: closer ones hardly tell more, as their errors are correlated
 // (half of a structured-light sensor's matching window of 9 pixels, as for surface normals).
 constexpr int kStep = 2;
-constexpr double kErrorLength = 5.0;
 // Fraction of the pixels of a cell that must have a depth.
 constexpr double kMinDepthRatio = 0.75;
 // Largest root mean square residual of a cell, and difference between a cell and the plane of a
-// region, in sigmas of the random part: the rest is the roughness of real walls.
+// region, in sigmas of the random part of the image: the rest is the roughness of real walls.
 constexpr double kMaxCellResidual = 2.0;
 constexpr double kMaxDifference = 3.0;
-// Marks the ray of a pixel that does not belong to the undistorted image.
-constexpr float kHidden = 1e9f;
+// That random part, in lower quartiles of the residuals of the cells: a cell hides what is common to
+// its pixels.
+constexpr double kNoiseOfQuartile = 2.0;
+// Walls are not flatter, nor sums of single precision more exact, 1/metres: 0.8 mm at 2 m.
+constexpr double kFlatness = 2e-4;
+// Rounds in which cells that do not lie on the plane of their region leave it.
+constexpr int kTrimRounds = 3;
+// Cells that share one error: with their neighbours to the right and below.
+constexpr double kCellsOfOneError = 4.0;
+// Error that all cells of a plane have in common, in sigmas of the random part.
+constexpr double kCommonPart = 0.5;
+// Pixels that are summed at once.
+constexpr int kLanes = 8;
+using Lanes = Eigen::Array<float, kLanes, 1>;
+
+// A positive definite matrix, which is singular for a region that is seen edge-on only: the result
+// is then not finite, and the region is no plane.
+Vector3d Solve(const Matrix3d& a, const Vector3d& b) { return a.inverse() * b; }
 
 }  // namespace
 
@@ -62,7 +76,7 @@ struct PlaneExtractor::Cell {
     count += other.count;
   }
   void Fit() {
-    inverse_depth = square_rays.ldlt().solve(rays_times_depth);
+    inverse_depth = Solve(square_rays, rays_times_depth);
     const double squares = square_depth - inverse_depth.dot(rays_times_depth);
     residual = std::sqrt(std::max(0.0, squares) / count);
   }
@@ -71,8 +85,8 @@ struct PlaneExtractor::Cell {
 bool PlaneExtractorOptions::IsValid(std::string* error) const {
   if (!(min_depth > 0.0 && max_depth > min_depth)) {
     *error = "planes: 0 < min_depth < max_depth (metres) must hold";
-  } else if (!(inverse_depth_noise > 0.0 && common_sigma >= 0.0)) {
-    *error = "planes: inverse_depth_noise must be positive, and common_sigma not negative";
+  } else if (!(inverse_depth_noise > 0.0)) {
+    *error = "planes: inverse_depth_noise must be positive";
   } else if (!(min_ratio > 0.0 && min_ratio <= 1.0)) {
     *error = "planes: min_ratio must be in (0, 1]";
   } else {
@@ -93,22 +107,44 @@ PlaneExtractor::PlaneExtractor(const PlaneExtractorOptions& options, const Pinho
   cell_size_ = step_ * std::max(ScaledLength(kCellSize, camera.width, 4) / step_, 4);
   columns_ = camera.width / cell_size_;
   rows_ = camera.height / cell_size_;
-  correlation_area_ = std::pow(kErrorLength * ImageScale(camera.width), 2);
+  cells_.resize(static_cast<size_t>(columns_) * rows_);
+  ComputeRays(distortion);
+}
+
+void PlaneExtractor::ComputeRays(const LensDistortion& distortion) {
+  // Returns NaN for what a wide lens records, but the undistorted image does not show.
+  const auto ray_of = [&](Vector2d pixel) -> Vector2d {
+    if (!distortion.IsZero()) pixel = distortion.Undistort(camera_, pixel);
+    const bool is_shown = !distortion.IsCropped() || camera_.IsInside(pixel);
+    return is_shown ? Vector2d(camera_.Ray(pixel).head<2>())
+                    : Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+  };
   const int per_side = cell_size_ / step_;
-  rays_.reserve(static_cast<size_t>(columns_) * rows_ * per_side * per_side);
+  pixels_per_cell_ = (per_side * per_side + kLanes - 1) / kLanes * kLanes;
+  const size_t num_pixels = cells_.size() * pixels_per_cell_;
+  rays_x_.assign(num_pixels, 0.0f);
+  rays_y_.assign(num_pixels, 0.0f);
+  max_depth_.assign(num_pixels, 0.0f);
+  cell_depth_.assign(pixels_per_cell_, 0.0f);
   for (int cell = 0; cell < columns_ * rows_; ++cell) {
     for (int i = 0; i < per_side * per_side; ++i) {
       const int x = (cell % columns_) * cell_size_ + (i % per_side) * step_;
       const int y = (cell / columns_) * cell_size_ + (i / per_side) * step_;
-      Eigen::Vector2d pixel(x, y);
-      if (!distortion.IsZero()) pixel = distortion.Undistort(camera, pixel);
-      const bool is_shown = !distortion.IsCropped() || camera.IsInside(pixel);
-      const Vector3d ray = camera.Ray(pixel);
-      rays_.push_back(is_shown ? Eigen::Vector2f(ray.head<2>().cast<float>())
-                               : Eigen::Vector2f(kHidden, kHidden));
+      const Vector2d ray = ray_of({x, y});
+      if (!ray.allFinite()) continue;
+      const size_t index = static_cast<size_t>(cell) * pixels_per_cell_ + i;
+      rays_x_[index] = static_cast<float>(ray.x());
+      rays_y_[index] = static_cast<float>(ray.y());
+      max_depth_[index] = static_cast<float>(options_.max_depth);
     }
   }
-  cells_.resize(static_cast<size_t>(columns_) * rows_);
+  for (int row = 0; row <= rows_; ++row) {
+    for (int column = 0; column <= columns_; ++column) {
+      // The last corner may be half a pixel outside the image.
+      corners_.push_back(ray_of({std::min(column * cell_size_, camera_.width - 1),
+                                 std::min(row * cell_size_, camera_.height - 1)}));
+    }
+  }
 }
 
 PlaneExtractor::~PlaneExtractor() = default;
@@ -136,9 +172,9 @@ std::vector<PlaneFeature> PlaneExtractor::Extract(const cv::Mat& depth) {
   for (const int seed : seeds) {
     if (cells_[seed].taken) continue;
     Cell region;
-    Grow(seed, &region);
+    const std::vector<int> cells = Grow(seed, &region);
     if (region.count * step_ * step_ < min_pixels) continue;
-    planes.push_back(MakeFeature(region));
+    planes.push_back(MakeFeature(region, cells));
   }
   std::stable_sort(planes.begin(), planes.end(), [](const PlaneFeature& a, const PlaneFeature& b) {
     return a.num_pixels > b.num_pixels;
@@ -146,18 +182,18 @@ std::vector<PlaneFeature> PlaneExtractor::Extract(const cv::Mat& depth) {
   return planes;
 }
 
+// Random part of the inverse depths of this image, 1/metres. Most cells of a scene with planes are
+// flat; that of the options, which stands for a whole kind of sensor, is the largest that a sensor
+// of that kind shows.
 double PlaneExtractor::NoiseOfCells() const {
   std::vector<double> residuals;
   for (const Cell& cell : cells_) {
     if (std::isfinite(cell.residual)) residuals.push_back(cell.residual);
   }
   if (residuals.empty()) return options_.inverse_depth_noise;
-  static const double quant = std::getenv("PLQ") ? std::atof(std::getenv("PLQ")) : 0.25;
-  static const double fac = std::getenv("PLK") ? std::atof(std::getenv("PLK")) : 2.0;
-  const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() * quant);
-  std::nth_element(residuals.begin(), middle, residuals.end());
-  if (std::getenv("PLDUMP")) std::fprintf(stderr, "NOISE %g\n", *middle);
-  return std::clamp(fac * *middle, 2e-4, options_.inverse_depth_noise);
+  const auto quartile = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 4);
+  std::nth_element(residuals.begin(), quartile, residuals.end());
+  return std::min(std::max(kNoiseOfQuartile * *quartile, kFlatness), options_.inverse_depth_noise);
 }
 
 void PlaneExtractor::FitCells(const cv::Mat& depth) {
@@ -168,30 +204,45 @@ void PlaneExtractor::FitCells(const cv::Mat& depth) {
   }
 }
 
-PlaneExtractor::Cell PlaneExtractor::FitCell(const cv::Mat& depth, int column, int row) const {
+PlaneExtractor::Cell PlaneExtractor::FitCell(const cv::Mat& depth, int column, int row) {
   const int per_side = cell_size_ / step_;
-  const Eigen::Vector2f* ray =
-      &rays_[static_cast<size_t>(row * columns_ + column) * per_side * per_side];
-  const auto nearest = static_cast<float>(options_.min_depth);
-  const auto farthest = static_cast<float>(options_.max_depth);
-  // xx, xy, yy, x, y, xw, yw, w, ww
-  std::array<float, 9> sums{};
-  Cell cell;
+  float* gathered = cell_depth_.data();
   for (int v = 0; v < per_side; ++v) {
     const float* z = depth.ptr<float>(row * cell_size_ + v * step_) + column * cell_size_;
-    for (int u = 0; u < per_side; ++u, ++ray, z += step_) {
-      if (!(*z >= nearest && *z <= farthest) || ray->x() == kHidden) continue;
-      const float x = ray->x(), y = ray->y(), w = 1.0f / *z;
-      const std::array<float, 9> terms{x * x, x * y, y * y, x, y, x * w, y * w, w, w * w};
-      for (size_t i = 0; i < sums.size(); ++i) sums[i] += terms[i];
-      ++cell.count;
-    }
+    for (int u = 0; u < per_side; ++u, z += step_) *gathered++ = *z;
   }
+  const size_t first = static_cast<size_t>(row * columns_ + column) * pixels_per_cell_;
+  const auto nearest = static_cast<float>(options_.min_depth);
+  Lanes count = Lanes::Zero(), xx = count, xy = count, yy = count, x = count, y = count;
+  Lanes xw = count, yw = count, w = count, ww = count;
+  for (int i = 0; i < pixels_per_cell_; i += kLanes) {
+    Lanes is_valid, inverse_depth;
+    for (int k = 0; k < kLanes; ++k) {
+      const float z = cell_depth_[i + k];
+      const bool valid = (z >= nearest) & (z <= max_depth_[first + i + k]);
+      is_valid[k] = valid ? 1.0f : 0.0f;
+      inverse_depth[k] = is_valid[k] / (valid ? z : 1.0f);
+    }
+    const Eigen::Map<const Lanes> ray_x(&rays_x_[first + i]), ray_y(&rays_y_[first + i]);
+    const Lanes valid_x = is_valid * ray_x, valid_y = is_valid * ray_y;
+    count += is_valid;
+    x += valid_x;
+    y += valid_y;
+    xx += valid_x * ray_x;
+    xy += valid_x * ray_y;
+    yy += valid_y * ray_y;
+    w += inverse_depth;
+    xw += inverse_depth * ray_x;
+    yw += inverse_depth * ray_y;
+    ww += inverse_depth * inverse_depth;
+  }
+  Cell cell;
+  cell.count = static_cast<int>(count.sum());
   if (cell.count < kMinDepthRatio * per_side * per_side) return Cell();
-  const double n = cell.count;
-  cell.square_rays << sums[0], sums[1], sums[3], sums[1], sums[2], sums[4], sums[3], sums[4], n;
-  cell.rays_times_depth << sums[5], sums[6], sums[7];
-  cell.square_depth = sums[8];
+  const double n = cell.count, sum_xy = xy.sum(), sum_x = x.sum(), sum_y = y.sum();
+  cell.square_rays << xx.sum(), sum_xy, sum_x, sum_xy, yy.sum(), sum_y, sum_x, sum_y, n;
+  cell.rays_times_depth << xw.sum(), yw.sum(), w.sum();
+  cell.square_depth = ww.sum();
   cell.Fit();
   return cell;
 }
@@ -203,8 +254,9 @@ bool PlaneExtractor::LiesOn(const Cell& cell, const Vector3d& inverse_depth) con
   return difference.dot(cell.square_rays * difference) <= limit * limit * cell.count;
 }
 
-// Marks the cells of the region around a seed as taken, and sums them.
-void PlaneExtractor::Grow(int seed, Cell* region) {
+// Marks the cells of the region around a seed as taken, and sums them. Returns those that remain on
+// its plane.
+std::vector<int> PlaneExtractor::Grow(int seed, Cell* region) {
   std::vector<int> cells{seed};
   cells_[seed].taken = true;
   *region = cells_[seed];
@@ -227,39 +279,61 @@ void PlaneExtractor::Grow(int seed, Cell* region) {
     }
   }
   // The plane has moved since its first cells joined.
-  for (int round = 0; round < 3; ++round) {
+  for (int round = 0; round < kTrimRounds; ++round) {
     const Vector3d plane = region->inverse_depth;
-    const size_t before = cells.size();
     cells.erase(std::remove_if(cells.begin(), cells.end(),
                                [&](int index) { return !LiesOn(cells_[index], plane); }),
                 cells.end());
-    if (cells.size() == before && round > 0) break;
     *region = Cell();
     for (const int index : cells) region->Add(cells_[index]);
     if (cells.empty()) break;
     region->Fit();
   }
-  Matrix3d info = Matrix3d::Zero();
+  return cells;
+}
+
+// Of the corners of the outermost cells in each row: those between them are in their hull.
+ConvexPolygon PlaneExtractor::Hull(const std::vector<int>& cells) const {
+  std::vector<std::pair<int, int>> ends(rows_, {columns_, -1});  // first and last column
+  for (const int cell : cells) {
+    auto& [first, last] = ends[cell / columns_];
+    first = std::min(first, cell % columns_);
+    last = std::max(last, cell % columns_);
+  }
+  std::vector<Vector2d> points;
+  for (int row = 0; row < rows_; ++row) {
+    const auto& [first, last] = ends[row];
+    if (last < 0) continue;
+    for (const int y : {row, row + 1}) {
+      for (const int x : {first, last + 1}) {
+        const Vector2d& corner = corners_[static_cast<size_t>(y) * (columns_ + 1) + x];
+        if (corner.allFinite()) points.push_back(corner);
+      }
+    }
+  }
+  ConvexPolygon hull = ConvexHull(std::move(points));
+  Simplify(PlaneFeature::kMaxHullVertices, &hull);
+  return hull;
+}
+
+// The cells, each with its own plane, tell how well they agree.
+PlaneFeature PlaneExtractor::MakeFeature(const Cell& region, const std::vector<int>& cells) const {
+  Matrix3d square_rays = Matrix3d::Zero();
   double squares = 0.0;
   for (const int index : cells) {
     const Cell& cell = cells_[index];
-    const Vector3d difference = cell.inverse_depth - region->inverse_depth;
-    info += cell.square_rays / cell.count;
+    const Vector3d difference = cell.inverse_depth - region.inverse_depth;
+    square_rays += cell.square_rays / cell.count;
     squares += difference.dot(cell.square_rays * difference) / cell.count;
   }
-  scatter_ = (squares / std::max<size_t>(1, cells.size()) + 4e-8) * info.inverse();
-}
-
-PlaneFeature PlaneExtractor::MakeFeature(const Cell& region) const {
+  const double variance = squares / static_cast<double>(cells.size()) + kFlatness * kFlatness;
   PlaneFeature plane;
   plane.inverse_depth = region.inverse_depth;
-  const double variance = std::pow(options_.inverse_depth_noise, 2) * correlation_area_ /
-                          static_cast<double>(step_ * step_);
-  static const double common = std::getenv("PLC") ? std::atof(std::getenv("PLC")) : 1.0;
-  plane.covariance = (variance > 0 ? 4.0 : 1.0) * scatter_ +
-                     std::pow(common * noise_, 2) * Matrix3d::Identity();
+  plane.covariance = kCellsOfOneError * variance * square_rays.inverse() +
+                     std::pow(kCommonPart * noise_, 2) * Matrix3d::Identity();
   plane.mean_square_ray = region.square_rays / region.count;
   plane.num_pixels = region.count * step_ * step_;
+  plane.hull = Hull(cells);
   return plane;
 }
 

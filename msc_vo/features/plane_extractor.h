@@ -17,10 +17,9 @@ namespace msc_vo {
 struct PlaneExtractorOptions {
   double min_depth = 0.2;  ///< metres; depth outside [min_depth, max_depth] is invalid
   double max_depth = 10.0;
-  /// Standard deviation of the random part of inverse depth, 1/metres.
+  /// Largest standard deviation of the random part of inverse depth, 1/metres; that of an image is
+  /// estimated from the image.
   double inverse_depth_noise = 0.002;
-  /// Standard deviation of the errors that all pixels of a plane have in common, 1/metres.
-  double common_sigma = 0.002;
   /// Smallest part of the image that a plane covers.
   double min_ratio = 0.02;
 
@@ -46,23 +45,30 @@ class PlaneExtractor {
  private:
   struct Cell;
 
+  void ComputeRays(const LensDistortion& distortion);
   double NoiseOfCells() const;
   void FitCells(const cv::Mat& depth);
-  Cell FitCell(const cv::Mat& depth, int column, int row) const;
-  void Grow(int seed, Cell* region);
+  Cell FitCell(const cv::Mat& depth, int column, int row);
+  std::vector<int> Grow(int seed, Cell* region);
   bool LiesOn(const Cell& cell, const Eigen::Vector3d& inverse_depth) const;
-  PlaneFeature MakeFeature(const Cell& region) const;
+  PlaneFeature MakeFeature(const Cell& region, const std::vector<int>& cells) const;
+  ConvexPolygon Hull(const std::vector<int>& cells) const;
 
   PlaneExtractorOptions options_;
   PinholeCamera camera_;
   int cell_size_ = 0;  // pixels
   int step_ = 0;       // between the pixels that are used
   int columns_ = 0, rows_ = 0;
-  double correlation_area_ = 0.0;      // pixels that share one error
-  std::vector<Eigen::Vector2f> rays_;  // x / z and y / z of the pixels that are used
+  int pixels_per_cell_ = 0;        // that are used, and padding to whole vector registers
+  // x / z and y / z of the pixels that are used, cell by cell, and the largest depth that is valid
+  // there: 0 where the pixel does not belong to the undistorted image, and of padding.
+  std::vector<float> rays_x_, rays_y_, max_depth_;
+  // x / z and y / z of the corners of the cells; NaN if they do not belong to the undistorted
+  // image.
+  std::vector<Eigen::Vector2d> corners_;
+  std::vector<float> cell_depth_;  // of the pixels of a cell that are used
   std::vector<Cell> cells_;
-  double noise_ = 0.0;
-  Eigen::Matrix3d scatter_;
+  double noise_ = 0.0;  // random part of the inverse depths of the image, 1/metres
 };
 
 }  // namespace msc_vo

@@ -63,6 +63,9 @@ void MovePlanes(const PinholeCamera& from, const PinholeCamera& to,
     plane.inverse_depth = a.transpose() * plane.inverse_depth;
     plane.covariance = a.transpose() * plane.covariance * a;
     plane.mean_square_ray = inverse * plane.mean_square_ray * inverse.transpose();
+    for (Eigen::Vector2d& vertex : plane.hull) {
+      vertex = (inverse * vertex.homogeneous()).head<2>();
+    }
   }
 }
 

@@ -3,7 +3,12 @@
 
 #pragma once
 
+#include <cstddef>
+
 #include <Eigen/Core>
+
+#include "msc_vo/geometry/convex_polygon.h"
+#include "msc_vo/geometry/plane_extent.h"
 
 namespace msc_vo {
 
@@ -17,14 +22,31 @@ struct PlaneFeature {
   /// depth between two planes where this one was seen.
   Eigen::Matrix3d mean_square_ray = Eigen::Matrix3d::Zero();
   int num_pixels = 0;
+  /// Convex hull of its pixels as rays (x / z, y / z), kMaxHullVertices or fewer; empty if the
+  /// extent is unknown.
+  ConvexPolygon hull = {};
+
+  static constexpr size_t kMaxHullVertices = 12;
+  static constexpr double kMinInverseDepth = 0.02;  ///< of a vertex of Extent(), 1/metres
 
   /// Unit normal towards the camera, and the distance of the camera from the plane, metres.
   Eigen::Vector3d Normal() const { return -inverse_depth.normalized(); }
   double Distance() const { return 1.0 / inverse_depth.norm(); }
+  /// The hull on the plane, camera frame, metres.
+  PlaneExtent Extent() const {
+    PlaneExtent extent;
+    for (const Eigen::Vector2d& vertex : hull) {
+      const Eigen::Vector3d ray(vertex.x(), vertex.y(), 1.0);
+      // The hull may reach a little beyond what was measured, but not to the horizon.
+      if (inverse_depth.dot(ray) >= kMinInverseDepth)
+        extent.push_back(ray / inverse_depth.dot(ray));
+    }
+    return extent;
+  }
 
   template <typename Archive>
   void Serialize(Archive& archive) {
-    archive.Fields(*this, inverse_depth, covariance, mean_square_ray, num_pixels);
+    archive.Fields(*this, inverse_depth, covariance, mean_square_ray, num_pixels, hull);
   }
 };
 

@@ -10,6 +10,7 @@
 #include "msc_vo/geometry/rigid3.h"
 #include "msc_vo/map/map.h"
 #include "msc_vo/map/noise_scale.h"
+#include "msc_vo/map/plane_landmark.h"
 #include "msc_vo/map/pose_graph_edge.h"
 #include "msc_vo/map/snapshot.h"
 
@@ -41,6 +42,7 @@ struct SavedSubMap {
   Map map;
   std::optional<AxesEstimate> axes;
   NoiseScale noise_scale;
+  SavedPlanes planes = {};  ///< ids are those of this submap
 };
 
 /// All that is kept of the runs that have built a map. Ids of keyframes and landmarks are unique

@@ -4,6 +4,9 @@
 #include "msc_vo/map/map_renumbering.h"
 
 #include <algorithm>
+#include <map>
+#include <utility>
+#include <vector>
 
 namespace msc_vo {
 
@@ -56,6 +59,17 @@ Map Renumbered(const Map& map, const IdOffset& offset) {
   return renumbered;
 }
 
+// Ids of planes are those of a submap.
+SavedPlanes Renumbered(SavedPlanes planes, const IdOffset& offset) {
+  for (auto& [id, plane] : planes.planes) plane.host += offset.keyframe;
+  std::map<KeyframeId, std::vector<PlaneMatch>> observations;
+  for (auto& [keyframe, matches] : planes.observations) {
+    observations[keyframe + offset.keyframe] = std::move(matches);
+  }
+  planes.observations = std::move(observations);
+  return planes;
+}
+
 }  // namespace
 
 void RenumberAfter(const MapContents& first, MapContents* second) {
@@ -64,6 +78,7 @@ void RenumberAfter(const MapContents& first, MapContents* second) {
   for (SavedSubMap& submap : second->submaps) {
     submap.id += offset.submap;
     submap.map = Renumbered(submap.map, offset);
+    submap.planes = Renumbered(std::move(submap.planes), offset);
   }
   for (PoseGraphEdge& edge : second->loops) {
     edge.from += offset.keyframe;

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <algorithm>
+#include <map>
 #include <vector>
 
 #include "msc_vo/geometry/plane.h"
+#include "msc_vo/geometry/plane_extent.h"
 #include "msc_vo/map/landmark.h"
 
 namespace msc_vo {
@@ -14,11 +16,12 @@ namespace msc_vo {
 /// A plane of the map.
 struct PlaneLandmark {
   LandmarkId id = kNoId;
-  Plane plane;  ///< world
+  Plane plane;              ///< world
+  PlaneExtent extent = {};  ///< convex hull of its observations, world
 
   template <typename Archive>
   void Serialize(Archive& archive) {
-    archive.Fields(*this, id, plane);
+    archive.Fields(*this, id, plane, extent);
   }
 };
 
@@ -50,6 +53,27 @@ struct PlaneMatch {
   void Serialize(Archive& archive) {
     archive.Fields(*this, feature, plane);
   }
+};
+
+/// A plane in the camera frame of a keyframe that observed it, its host, with which it moves when
+/// the map is corrected.
+struct HostedPlane {
+  KeyframeId host = kNoId;
+  Plane in_host;
+  PlaneExtent extent = {};  ///< host frame; near the plane, which may have moved since
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, host, in_host, extent);
+  }
+};
+
+/// The planes of a map, as a map file keeps them.
+struct SavedPlanes {
+  std::map<LandmarkId, HostedPlane> planes;  ///< with a host that is in the map
+  /// By keyframe; every plane has an observation.
+  std::map<KeyframeId, std::vector<PlaneMatch>> observations;
+  double noise = 1.0;  ///< MapPlanes::noise
 };
 
 }  // namespace msc_vo

@@ -61,7 +61,7 @@ void CheckMap(const std::string& path) {
 MapFileSummary SummarizeMap(const std::string& path) {
   return ReadFrom(path, [](const SqliteDatabase& database) {
     MapFileSummary summary;
-    summary.version = static_cast<int>(database.Integer("PRAGMA user_version"));
+    summary.version = SchemaVersion(database);
     summary.num_bytes =
         database.Integer("PRAGMA page_count") * database.Integer("PRAGMA page_size");
     summary.num_loop_edges = database.Integer("SELECT count(*) FROM loop");
@@ -72,7 +72,8 @@ MapFileSummary SummarizeMap(const std::string& path) {
     while (submaps.Step()) {
       const int64_t id = submaps.Integer(0);
       summary.submaps.push_back({id, Count(database, "keyframe", id), Count(database, "point", id),
-                                 Count(database, "line", id)});
+                                 Count(database, "line", id),
+                                 summary.version >= 2 ? Count(database, "plane", id) : 0});
     }
     return summary;
   });

@@ -31,6 +31,7 @@ struct MapFileSummary {
     int64_t num_keyframes = 0;
     int64_t num_points = 0;
     int64_t num_lines = 0;
+    int64_t num_planes = 0;
   };
   int version = 0;      ///< of the format
   std::string program;  ///< that wrote it last

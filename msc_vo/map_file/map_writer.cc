@@ -12,6 +12,7 @@
 #include "msc_vo/map_file/internal/calibration_rows.h"
 #include "msc_vo/map_file/internal/feature_blob.h"
 #include "msc_vo/map_file/internal/map_schema.h"
+#include "msc_vo/map_file/internal/plane_rows.h"
 #include "msc_vo/map_file/internal/row.h"
 #include "msc_vo/map_file/internal/sqlite_database.h"
 #include "msc_vo/map_file/internal/table_reader.h"
@@ -54,13 +55,6 @@ void AddGeometry(const LineLandmark& line, RowWriter* row) {
   row->Metres(line.depth_offset);
 }
 
-SqliteStatement PrepareUpsert(const SqliteDatabase& database, const std::string& table,
-                              int num_columns) {
-  std::string sql = "INSERT OR REPLACE INTO " + table + " VALUES (?";
-  for (int i = 1; i < num_columns; ++i) sql += ", ?";
-  return database.Prepare(sql + ")");
-}
-
 // The difference of two maps, as changes of the tables.
 class TableWriter {
  public:
@@ -97,6 +91,7 @@ class TableWriter {
   CalibrationRows* calibrations_;
   SqliteStatement keyframe_ = PrepareUpsert(database_, "keyframe", 10);
   SqliteStatement features_ = PrepareUpsert(database_, "features", 11);
+  SqliteStatement plane_features_ = PrepareUpsert(database_, "plane_features", 3);
 };
 
 // Deletes what is in no map any more.
@@ -117,6 +112,7 @@ void TableWriter::Erase() {
       if (FindKeyframe(now_, id) != nullptr) return;
       erase("keyframe", "id", id);
       erase("features", "keyframe", id);
+      erase("plane_features", "keyframe", id);
     });
     ForEachLandmarkKind([&](auto kind) {
       using L = typename decltype(kind)::Landmark;
@@ -165,6 +161,9 @@ void TableWriter::WriteFeatures(const Map& map, const Keyframe& keyframe) {
   });
   const BlobWriter step = EncodeCovariance(*map.StepCovariance(keyframe.id));
   row.Blob(blobs.depth_ranges).Blob(step.bytes()).Execute();
+  if (frame.planes.empty()) return;
+  const std::string planes = EncodePlanes(frame.planes);
+  RowWriter(&plane_features_).Integer(keyframe.id).Blob(planes).Execute();
 }
 
 template <typename L>
@@ -202,10 +201,11 @@ void TableWriter::WriteSmallTables() {
   }
   id = 0;
   for (const PoseGraphEdge& loop : now_.loops) WriteLoop(++id, loop);
+  WritePlanes(database_, now_);
 }
 
 void TableWriter::WriteSubMap(const SavedSubMap& submap) {
-  SqliteStatement insert = PrepareUpsert(database_, "submap", 11);
+  SqliteStatement insert = PrepareUpsert(database_, "submap", 12);
   RowWriter row(&insert);
   row.Integer(submap.id);
   if (submap.axes) {
@@ -215,7 +215,8 @@ void TableWriter::WriteSubMap(const SavedSubMap& submap) {
     for (int i = 0; i < 6; ++i) row.Null();
   }
   const NoiseScale& noise = submap.noise_scale;
-  row.Real(noise.point_depth).Real(noise.line_pixel).Real(noise.line_depth).Execute();
+  row.Real(noise.point_depth).Real(noise.line_pixel).Real(noise.line_depth);
+  row.Real(submap.planes.noise).Execute();
 }
 
 void TableWriter::WriteLoop(int64_t id, const PoseGraphEdge& loop) {
@@ -228,7 +229,8 @@ void TableWriter::WriteLoop(int64_t id, const PoseGraphEdge& loop) {
 }
 
 void EraseAll(const SqliteDatabase& database) {
-  for (const char* table : {"calibration", "keyframe", "features", "point", "line"}) {
+  for (const char* table :
+       {"calibration", "keyframe", "features", "plane_features", "point", "line"}) {
     database.Execute(std::string("DELETE FROM ") + table);
   }
 }
@@ -238,7 +240,8 @@ MapContents Share(MapContents* contents) {
   shared.sessions = contents->sessions;
   shared.loops = contents->loops;
   for (SavedSubMap& submap : contents->submaps) {
-    shared.submaps.push_back({submap.id, submap.map.Share(), submap.axes, submap.noise_scale});
+    shared.submaps.push_back(
+        {submap.id, submap.map.Share(), submap.axes, submap.noise_scale, submap.planes});
   }
   return shared;
 }
@@ -276,6 +279,7 @@ void MapWriter::Write(MapContents contents) {
   const MapContents none;
   state.database.Transaction([&] {
     if (state.is_empty) CreateSchema(state.database);
+    UpgradeSchema(state.database);
     if (!state.is_known) EraseAll(state.database);
     TableWriter(state.database, state.is_known ? state.written : none, contents, &calibrations)
         .Write();

@@ -15,7 +15,8 @@ std::shared_ptr<const Map> Share(SubMap* submap) {
 }
 
 SavedSubMap ToSave(SubMap* submap) {
-  return {submap->id, submap->map.Share(), submap->axes.Estimate(), submap->noise.scale()};
+  return {submap->id, submap->map.Share(), submap->axes.Estimate(), submap->noise.scale(),
+          submap->planes.Save(submap->map)};
 }
 
 }  // namespace
@@ -35,6 +36,7 @@ SubMap Atlas::Restored(SavedSubMap saved) const {
   submap.map.BeginSession();
   if (saved.axes) submap.axes.Restore(*saved.axes);
   submap.noise.Restore(saved.noise_scale);
+  submap.planes.Restore(saved.planes);
   return submap;
 }
 

@@ -28,6 +28,11 @@ constexpr double kLearningRate = 0.1;
 constexpr size_t kMinResiduals = 10;
 // Bounds of the learnt scale of sigmas.
 constexpr double kMinNoise = 0.1, kMaxNoise = 10.0;
+// Vertices of an extent: a rectangle with cut corners, and some that further views add.
+constexpr size_t kMaxVertices = 16;
+// Largest gap between parts of one plane that are merged, metres: two cells of the extractor at
+// 4 m, less than the width of a door.
+constexpr double kMaxGap = 0.3;
 
 BlockId BlockOf(LandmarkId plane) { return BlockId::Extra(PlaneMap::kFirstBlock - 1 - plane); }
 LandmarkId PlaneOf(const ExtraBlock& block) { return PlaneMap::kFirstBlock - 1 - block.id; }
@@ -60,7 +65,66 @@ void PlaneMap::AddKeyframe(const Map& map, KeyframeId keyframe,
     planes_[next_] = {keyframe, Plane(features[i].Normal(), features[i].Distance())};
     matches.push_back({static_cast<int>(i), next_++});
   }
+  for (const PlaneMatch& match : matches) Grow(map, added, match);
   keyframes_[keyframe] = std::move(matches);
+  MergeDuplicates(map, keyframe);
+}
+
+// Extends a plane by what a keyframe shows of it.
+void PlaneMap::Grow(const Map& map, const Keyframe& keyframe, const PlaneMatch& match) {
+  HostedPlane& plane = planes_.at(match.plane);
+  const Rigid3 host_from_cam = map.CamFromWorld(plane.host) * keyframe.cam_from_world.Inverse();
+  PlaneExtent points = host_from_cam * keyframe.frame->planes[match.feature].Extent();
+  points.insert(points.end(), plane.extent.begin(), plane.extent.end());
+  plane.extent = ConvexHull(plane.in_host, points, kMaxVertices);
+}
+
+void PlaneMap::MergeDuplicates(const Map& map, KeyframeId keyframe) {
+  const auto observed = keyframes_.find(keyframe);
+  if (observed == keyframes_.end()) return;
+  const Keyframe& observer = *map.FindKeyframe(keyframe);
+  for (size_t i = 0; i < observed->second.size(); ++i) {
+    std::vector<LandmarkId> duplicates;
+    for (const auto& [id, plane] : planes_) {
+      if (AreSame(map, observer, observed->second[i], id)) duplicates.push_back(id);
+    }
+    for (const LandmarkId id : duplicates) {
+      const LandmarkId own = observed->second[i].plane;
+      Replace(map, std::max(own, id), std::min(own, id));
+    }
+  }
+}
+
+// Whether the plane of a match and another one differ by less than three sigmas of the
+// observation, where it was made and at all vertices of their extents.
+bool PlaneMap::AreSame(const Map& map, const Keyframe& keyframe, const PlaneMatch& match,
+                       LandmarkId other) const {
+  if (match.plane == other) return false;
+  const PlaneFeature& feature = keyframe.frame->planes[match.feature];
+  const auto in_cam = [&](LandmarkId id) -> PlaneLandmark {
+    const HostedPlane& plane = planes_.at(id);
+    const Rigid3 cam_from_host = keyframe.cam_from_world * map.CamFromWorld(plane.host).Inverse();
+    return {id, cam_from_host * plane.in_host, cam_from_host * plane.extent};
+  };
+  const PlaneLandmark a = in_cam(match.plane), b = in_cam(other);
+  return AreSamePlane(feature, a, b, noise_) && AreTouching(a.plane, a.extent, b.extent, kMaxGap);
+}
+
+// Gives the observations and the extent of a plane to another one.
+void PlaneMap::Replace(const Map& map, LandmarkId replaced, LandmarkId kept) {
+  HostedPlane& plane = planes_.at(kept);
+  const HostedPlane& other = planes_.at(replaced);
+  const Rigid3 host_from_other =
+      map.CamFromWorld(plane.host) * map.CamFromWorld(other.host).Inverse();
+  PlaneExtent points = host_from_other * other.extent;
+  points.insert(points.end(), plane.extent.begin(), plane.extent.end());
+  plane.extent = ConvexHull(plane.in_host, points, kMaxVertices);
+  for (auto& [id, matches] : keyframes_) {
+    for (PlaneMatch& match : matches) {
+      if (match.plane == replaced) match.plane = kept;
+    }
+  }
+  planes_.erase(replaced);
 }
 
 void PlaneMap::Renew(const Map& map) {
@@ -150,9 +214,50 @@ MapPlanes PlaneMap::InWorld(const Map& map) const {
   MapPlanes result;
   result.noise = noise_;
   for (const auto& [id, plane] : planes_) {
-    result.planes.push_back({id, map.CamFromWorld(plane.host).Inverse() * plane.in_host});
+    const Rigid3 world_from_host = map.CamFromWorld(plane.host).Inverse();
+    PlaneLandmark landmark{id, world_from_host * plane.in_host, world_from_host * plane.extent};
+    for (Eigen::Vector3d& vertex : landmark.extent) vertex = Project(landmark.plane, vertex);
+    result.planes.push_back(std::move(landmark));
   }
   return result;
+}
+
+std::map<LandmarkId, int> PlaneMap::NumObservations() const {
+  std::map<LandmarkId, int> counts;
+  for (const auto& [id, matches] : keyframes_) {
+    std::set<LandmarkId> observed;  // two features may be parts of one plane
+    for (const PlaneMatch& match : matches) observed.insert(match.plane);
+    for (const LandmarkId plane : observed) ++counts[plane];
+  }
+  return counts;
+}
+
+SavedPlanes PlaneMap::Save(const Map& map) const {
+  SavedPlanes saved;
+  saved.noise = noise_;
+  std::map<LandmarkId, KeyframeId> first_observers;
+  for (const auto& [id, matches] : keyframes_) {
+    if (map.FindKeyframe(id) == nullptr) continue;
+    saved.observations[id] = matches;
+    for (const PlaneMatch& match : matches) first_observers.emplace(match.plane, id);
+  }
+  for (const auto& [id, observer] : first_observers) {
+    HostedPlane plane = planes_.at(id);
+    if (map.FindKeyframe(plane.host) == nullptr) {
+      const Rigid3 host_from_old =
+          map.CamFromWorld(observer) * map.CamFromWorld(plane.host).Inverse();
+      plane = {observer, host_from_old * plane.in_host, host_from_old * plane.extent};
+    }
+    saved.planes[id] = std::move(plane);
+  }
+  return saved;
+}
+
+void PlaneMap::Restore(const SavedPlanes& saved) {
+  planes_ = saved.planes;
+  keyframes_ = saved.observations;
+  noise_ = saved.noise;
+  next_ = planes_.empty() ? 0 : planes_.rbegin()->first + 1;
 }
 
 }  // namespace msc_vo

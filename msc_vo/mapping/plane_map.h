@@ -22,8 +22,12 @@ class PlaneMap {
   static constexpr int64_t kFirstBlock = -(int64_t{1} << 62);
 
   /// Matches the planes of a keyframe of the map, whose pose has a covariance (tangent of
-  /// Rigid3Manifold), and adds those that are new.
+  /// Rigid3Manifold), adds those that are new, extends the others by
+  /// what the keyframe shows of them, and merges duplicates.
   void AddKeyframe(const Map& map, KeyframeId keyframe, const PoseCovariance& covariance);
+  /// Merges planes that a keyframe observes with others that are the same within the uncertainty
+  /// of the observation, and whose extents touch. Does nothing if the keyframe is unknown.
+  void MergeDuplicates(const Map& map, KeyframeId keyframe);
   /// Forgets keyframes that were culled, and the planes that only they observed.
   void Renew(const Map& map);
   /// Takes over the planes of a map that was joined with that of this one; the keyframes of both
@@ -39,6 +43,12 @@ class PlaneMap {
   /// The planes in the world of the map.
   MapPlanes InWorld(const Map& map) const;
   bool empty() const { return planes_.empty(); }
+  /// The number of keyframes that observe each plane.
+  std::map<LandmarkId, int> NumObservations() const;
+
+  /// The planes of the keyframes that are in the map, hosted by these, for a map file.
+  SavedPlanes Save(const Map& map) const;
+  void Restore(const SavedPlanes& saved);
 
   /// Lists the state for a checkpoint.
   template <typename Archive>
@@ -48,15 +58,10 @@ class PlaneMap {
   }
 
  private:
-  struct HostedPlane {
-    KeyframeId host = kNoId;
-    Plane in_host;
-
-    template <typename Archive>
-    void Serialize(Archive& archive) {
-      archive.Fields(*this, host, in_host);
-    }
-  };
+  void Grow(const Map& map, const Keyframe& keyframe, const PlaneMatch& match);
+  bool AreSame(const Map& map, const Keyframe& keyframe, const PlaneMatch& match,
+               LandmarkId other) const;
+  void Replace(const Map& map, LandmarkId replaced, LandmarkId kept);
 
   std::map<LandmarkId, HostedPlane> planes_;
   std::map<KeyframeId, std::vector<PlaneMatch>> keyframes_;

@@ -4,15 +4,14 @@
 #include "msc_vo/matching/plane_matcher.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
+#include <cmath>
 #include <limits>
-#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 #include "msc_vo/factors/chi_square.h"
+#include "msc_vo/geometry/angles.h"
 #include "msc_vo/geometry/so3.h"
 
 namespace msc_vo {
@@ -22,23 +21,62 @@ namespace {
 // Largest error of inverse depth that the pose may add, 1/metres: 8 cm at 2 m. A wider search finds
 // other surfaces of a room.
 constexpr double kMaxPoseSigma = 0.02;
-// Twice the log of the odds against the next plane.
-const double kMinLogOdds = std::getenv("PLO") ? std::atof(std::getenv("PLO")) : 0.0;
+constexpr double kMaxSigmas = 3.0;
+constexpr double kMaxAngle = 8.0;  // degrees
 // Nearest plane, metres: the inverse depths of nearer ones are not defined.
 constexpr double kMinDistance = 0.05;
 // Smallest eigenvalue of the sum of n n^T of normals that span space: that of three planes of which
 // one is tilted by 15 degrees out of the direction that the others leave free.
 constexpr double kMinSpan = 0.067;
 
+// Three sigmas of a feature, squared, 1/metres^2.
+double SquaredThreeSigmas(const PlaneFeature& feature, double noise) {
+  const double variance =
+      noise * noise * feature.mean_square_ray.cwiseProduct(feature.covariance).sum();
+  return kMaxSigmas * kMaxSigmas * variance;
+}
+
+bool AreParallel(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  static const double min_cosine = std::cos(DegreesToRadians(kMaxAngle));
+  return a.dot(b) >= min_cosine;
+}
+
+Eigen::Vector3d InverseDepth(const Plane& in_cam) { return -in_cam.normal() / in_cam.offset(); }
+
+// Mean squared difference of inverse depths where a feature was seen, 1/metres^2.
+double SquaredDifference(const PlaneFeature& feature, const Eigen::Vector3d& a,
+                         const Eigen::Vector3d& b) {
+  return (a - b).dot(feature.mean_square_ray * (a - b));
+}
+
 // Change of the inverse depths of a plane (camera) with the pose, tangent of Rigid3Manifold.
-Eigen::Matrix<double, 3, 6> JacobianOfPose(const Plane& in_cam, const Eigen::Vector3d& translation) {
+Eigen::Matrix<double, 3, 6> JacobianOfPose(const Plane& in_cam,
+                                           const Eigen::Vector3d& translation) {
   const Eigen::Vector3d n = in_cam.normal();
   const double d = in_cam.offset();
   Eigen::Matrix<double, 3, 6> jacobian;
-  jacobian.leftCols<3>() =
-      Skew(n) / d + n * (translation.transpose() * Skew(n)) / (d * d);
+  jacobian.leftCols<3>() = Skew(n) / d + n * (translation.transpose() * Skew(n)) / (d * d);
   jacobian.rightCols<3>() = -n * n.transpose() / (d * d);
   return jacobian;
+}
+
+// -2 log likelihood, without its constant, of a feature as a plane (camera); infinite if they
+// contradict each other, or if the pose is too uncertain to tell. The plane is taken to be as
+// uncertain as one observation.
+double Unlikelihood(const PlaneFeature& feature, const Plane& in_cam, double noise,
+                    const Rigid3& cam_from_world, const PoseCovariance& covariance) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  if (in_cam.offset() < kMinDistance || in_cam.normal().dot(feature.Normal()) <= 0.0) return kNever;
+  const auto jacobian = JacobianOfPose(in_cam, cam_from_world.translation());
+  const Eigen::Matrix3d of_pose = jacobian * covariance * jacobian.transpose();
+  if (feature.mean_square_ray.cwiseProduct(of_pose).sum() > kMaxPoseSigma * kMaxPoseSigma) {
+    return kNever;
+  }
+  const Eigen::LLT<Eigen::Matrix3d> sum(of_pose + 2.0 * noise * noise * feature.covariance);
+  const Eigen::Vector3d difference = InverseDepth(in_cam) - feature.inverse_depth;
+  const double squared = difference.dot(sum.solve(difference));
+  if (!(squared <= kOutlierChiSquare[3])) return kNever;
+  return squared + 2.0 * sum.matrixLLT().diagonal().array().log().sum();
 }
 
 }  // namespace
@@ -47,38 +85,44 @@ std::vector<PlaneMatch> MatchPlanes(const std::vector<PlaneFeature>& features, c
                                     const Rigid3& cam_from_world,
                                     const PoseCovariance& covariance) {
   std::vector<PlaneMatch> matches;
+  const Rigid3 world_from_cam = cam_from_world.Inverse();
   for (size_t i = 0; i < features.size(); ++i) {
     const PlaneFeature& feature = features[i];
-    if (std::getenv("PLDUMP") && i == 0) std::fprintf(stderr, "MATCH %zu features %zu planes\n", features.size(), map.planes.size());
-    // The plane of the map is as uncertain as one observation.
-    const Eigen::Matrix3d of_planes = 2.0 * map.noise * map.noise * feature.covariance;
+    const PlaneExtent extent = world_from_cam * feature.Extent();
     PlaneMatch match{static_cast<int>(i), kNoId};
-    double least = std::numeric_limits<double>::infinity(), second = least;
+    double least = std::numeric_limits<double>::infinity();
+    bool is_seen = false;
     for (const PlaneLandmark& landmark : map.planes) {
-      const Plane in_cam = cam_from_world * landmark.plane;
-      if (in_cam.offset() < kMinDistance || in_cam.normal().dot(feature.Normal()) <= 0.0) continue;
-      const Eigen::Vector3d difference = -in_cam.normal() / in_cam.offset() - feature.inverse_depth;
-      const auto jacobian = JacobianOfPose(in_cam, cam_from_world.translation());
-      const Eigen::Matrix3d of_pose = jacobian * covariance * jacobian.transpose();
-      if (feature.mean_square_ray.cwiseProduct(of_pose).sum() > kMaxPoseSigma * kMaxPoseSigma) {
-        continue;
-      }
-      const Eigen::Matrix3d sum = of_planes + of_pose;
-      const Eigen::LLT<Eigen::Matrix3d> factor(sum);
-      const double squared = difference.dot(factor.solve(difference));
-      const double unlikelihood = squared + 2.0 * factor.matrixLLT().diagonal().array().log().sum();
-      if (std::getenv("PLDUMP")) std::fprintf(stderr, "cand f%zu n%d l%ld chi2 %.2f d %.3f of_pose %.5f noise %.2f q %.4f %.4f %.4f diff %.5f %.5f %.5f\n", i, feature.num_pixels, long(landmark.id), squared, in_cam.offset(), std::sqrt(feature.mean_square_ray.cwiseProduct(of_pose).sum()), map.noise, feature.inverse_depth.x(), feature.inverse_depth.y(), feature.inverse_depth.z(), difference.x(), difference.y(), difference.z());
-      if (squared > kOutlierChiSquare[3]) continue;
-      if (unlikelihood >= least) {
-        second = std::min(second, unlikelihood);
-        continue;
-      }
-      second = std::exchange(least, unlikelihood);
+      const double unlikelihood =
+          Unlikelihood(feature, cam_from_world * landmark.plane, map.noise, cam_from_world, covariance);
+      if (!std::isfinite(unlikelihood) || (is_seen && unlikelihood >= least)) continue;
+      const bool touches = AreTouching(landmark.plane, landmark.extent, extent, 0.0);
+      if (touches == is_seen ? unlikelihood >= least : is_seen) continue;
+      least = unlikelihood;
+      is_seen = touches;
       match.plane = landmark.id;
     }
-    if (match.plane != kNoId && second - least >= kMinLogOdds) matches.push_back(match);
+    if (match.plane != kNoId) matches.push_back(match);
   }
   return matches;
+}
+
+bool AreSamePlane(const PlaneFeature& feature, const PlaneLandmark& a, const PlaneLandmark& b,
+                  double noise) {
+  const double limit = SquaredThreeSigmas(feature, noise);
+  if (a.plane.offset() < kMinDistance || b.plane.offset() < kMinDistance ||
+      !AreParallel(a.plane.normal(), b.plane.normal()) ||
+      SquaredDifference(feature, InverseDepth(a.plane), InverseDepth(b.plane)) >= limit) {
+    return false;
+  }
+  // An error e of inverse depth is one of z^2 e of depth.
+  const auto is_near = [limit](const Plane& plane, const PlaneExtent& extent) {
+    return std::all_of(extent.begin(), extent.end(), [&](const Eigen::Vector3d& vertex) {
+      const double distance = plane.normal().dot(vertex) + plane.offset();
+      return distance * distance < limit * std::pow(vertex.squaredNorm(), 2);
+    });
+  };
+  return is_near(a.plane, b.extent) && is_near(b.plane, a.extent);
 }
 
 bool DetermineAPose(const std::vector<PlaneFeature>& features) {

@@ -14,9 +14,16 @@ namespace msc_vo {
 
 /// Matches the planes of a frame with those of the map by their geometry, from a pose with a
 /// covariance (tangent of Rigid3Manifold): a feature is the likeliest plane that it does not
-/// contradict (chi-square). Parts of one wall are matched with the same plane.
+/// contradict (chi-square), among those whose extent it touches if there are such. Parts of one
+/// wall are matched with the same plane.
 std::vector<PlaneMatch> MatchPlanes(const std::vector<PlaneFeature>& features, const MapPlanes& map,
                                     const Rigid3& cam_from_world, const PoseCovariance& covariance);
+
+/// Whether two planes, in the camera frame, differ by less than three sigmas of a feature that
+/// observes one of them: where it was seen, and at the vertices of both extents, whose depth is
+/// taken to be known as well as that of the feature. `noise`: MapPlanes::noise.
+bool AreSamePlane(const PlaneFeature& feature, const PlaneLandmark& a, const PlaneLandmark& b,
+                  double noise);
 
 /// Whether planes with these normals determine a pose: their normals span three directions.
 bool DetermineAPose(const std::vector<PlaneFeature>& features);

@@ -12,6 +12,7 @@
 #include "msc_vo/mapping/atlas.h"
 #include "msc_vo/mapping/landmark_care.h"
 #include "msc_vo/mapping/loop_closer.h"
+#include "msc_vo/mapping/plane_map.h"
 #include "msc_vo/matching/local_map.h"
 #include "msc_vo/self_calibration/keyframe_intrinsics.h"
 #include "msc_vo/tracking/place_search.h"
@@ -162,11 +163,14 @@ class MapMerger {
   // Fuses duplicate landmarks and culls redundant keyframes.
   void FuseAndCull(const std::vector<KeyframeId>& keyframes) {
     Map* const map = &atlas_.current().map;
+    PlaneMap* const planes = &atlas_.current().planes;
     for (const KeyframeId id : keyframes) {
       if (map->FindKeyframe(id) == nullptr) continue;
       care_.Fuse(id, map);
+      planes->MergeDuplicates(*map, id);
       care_.CullKeyframes(id, map);
     }
+    planes->Renew(*map);
   }
 
   OdometryOptions options_;

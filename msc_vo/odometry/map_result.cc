@@ -4,6 +4,7 @@
 #include "msc_vo/odometry/map_result.h"
 
 #include <map>
+#include <optional>
 #include <utility>
 
 namespace msc_vo {
@@ -21,6 +22,15 @@ size_t SessionOf(KeyframeId keyframe, const std::vector<MapSession>& sessions) {
   size_t index = 0;
   while (index + 1 < sessions.size() && sessions[index + 1].first_keyframe <= keyframe) ++index;
   return index;
+}
+
+void AddPlanes(const SubMap& submap, OdometryResult* result) {
+  const std::optional<AxesEstimate> axes = submap.axes.Estimate();
+  const std::map<LandmarkId, int> counts = submap.planes.NumObservations();
+  for (const PlaneLandmark& landmark : submap.planes.InWorld(submap.map).planes) {
+    result->planes.push_back({landmark.plane, landmark.extent, counts.at(landmark.id),
+                              axes ? AxisOfPlane(*axes, landmark.plane) : std::nullopt});
+  }
 }
 
 }  // namespace
@@ -45,6 +55,7 @@ void AddMap(const Mapper& mapper, SubMapId submap_id, OdometryResult* result) {
                              best.axis ? best.axis : submap->axes.AxisOf(line),
                              line.viewing_direction});
   }
+  AddPlanes(*submap, result);
   result->axes = MakeAxes(submap->axes);
 }
 

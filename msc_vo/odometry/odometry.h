@@ -13,6 +13,8 @@
 #include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
 #include "msc_vo/camera/lens_distortion.h"
 #include "msc_vo/geometry/line_segment.h"
+#include "msc_vo/geometry/plane.h"
+#include "msc_vo/geometry/plane_extent.h"
 #include "msc_vo/geometry/timed_pose.h"
 #include "msc_vo/map/map_contents.h"
 #include "msc_vo/map/noise_scale.h"
@@ -51,6 +53,14 @@ struct MapLine {
   Eigen::Vector3d viewing_direction = Eigen::Vector3d::Zero();
 };
 
+/// A plane landmark of the final map.
+struct MapPlane {
+  Plane plane;               ///< world
+  PlaneExtent extent;        ///< convex hull of its observations, metres, world
+  int num_observations = 0;  ///< keyframes that observe it
+  std::optional<int> axis;   ///< index 0..2 of the Manhattan axis that its normal is parallel to
+};
+
 /// The Manhattan axes of the scene.
 struct MapAxes {
   AxesState state = AxesState::kNone;
@@ -65,14 +75,15 @@ struct OdometryResult {
   std::vector<FrameResult> frames;  ///< one per image, in order, with the final poses
   std::vector<Segment> segments;    ///< in order of time; one unless the map was left behind
   std::vector<Loop> loops;          ///< that were closed, in order of time
-  /// The world (Segment::world) of keyframes, points, lines and axes: the one with most estimated
-  /// poses.
+  /// The world (Segment::world) of keyframes, points, lines, planes and axes: the one with most
+  /// estimated poses.
   int map_world = 0;
   std::vector<TimedPose> keyframes;  ///< of this run, in order of time
   /// Keyframes of earlier sessions (Odometry::SetMap()), by world, then by session.
   std::vector<SessionPath> earlier_sessions;
   std::vector<MapPoint> points;
   std::vector<MapLine> lines;
+  std::vector<MapPlane> planes;  ///< empty unless OdometryOptions use planes
   MapAxes axes;
   NoiseScale noise_scale;  ///< of the sigmas of the features, self-calibrated
   /// The depth sensor of the options, or the one inferred from the depth images; kAuto: too little

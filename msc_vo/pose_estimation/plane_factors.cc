@@ -4,7 +4,6 @@
 #include "msc_vo/pose_estimation/plane_factors.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <memory>
 
 #include <ceres/loss_function.h>
@@ -36,8 +35,6 @@ class FixedPlaneObservation : public CostFunctor<FixedPlaneObservation, 3, 7> {
   Plane plane_;
 };
 
-double EnvScale(const char* n) { const char* v = std::getenv(n); return v ? std::atof(v) : 1.0; }
-
 PlaneObservation Observe(const PlaneFeature& feature, double noise) {
   return {feature.inverse_depth, noise * noise * feature.covariance};
 }
@@ -59,7 +56,7 @@ std::vector<PoseFactor> MakePlanePoseFactors(const std::vector<PlaneFeature>& fe
     if (plane == nullptr) continue;
     factors.push_back({"plane",
                        FixedPlaneObservation::CreateShared(
-                           Observe(features[match.feature], map.noise * EnvScale("PLF")), plane->plane),
+                           Observe(features[match.feature], map.noise), plane->plane),
                        Loss()});
   }
   return factors;
@@ -67,7 +64,7 @@ std::vector<PoseFactor> MakePlanePoseFactors(const std::vector<PlaneFeature>& fe
 
 CustomFactor MakePlaneFactor(const PlaneFeature& feature, double noise, const BlockId& pose,
                              const BlockId& plane) {
-  return {"plane", PlaneObservation::CreateShared(Observe(feature, noise * EnvScale("PLW"))), Loss(), {pose, plane}};
+  return {"plane", PlaneObservation::CreateShared(Observe(feature, noise)), Loss(), {pose, plane}};
 }
 
 }  // namespace msc_vo

@@ -13,6 +13,7 @@
 
 #include "msc_vo/camera/pinhole_camera.h"
 #include "msc_vo/geometry/line_segment.h"
+#include "msc_vo/geometry/plane_extent.h"
 #include "msc_vo/geometry/rigid3.h"
 #include "msc_vo/report/frame_view.h"
 
@@ -57,6 +58,12 @@ struct ReportLine {
   int axis = -1;         ///< Manhattan axis 0, 1, 2 that it is parallel to; -1: none
 };
 
+/// A plane of the final map, in the same frame as the poses.
+struct ReportPlane {
+  PlaneExtent extent;  ///< metres, world
+  int axis = -1;       ///< Manhattan axis 0, 1, 2 that its normal is parallel to; -1: none
+};
+
 /// Keyframes of an earlier run that built the map.
 struct ReportSession {
   std::string name;                        ///< empty: several runs, or unknown
@@ -66,6 +73,7 @@ struct ReportSession {
 /// The map as it is drawn, in the same frame as the poses.
 struct ReportMap {
   std::vector<ReportLine> lines;
+  std::vector<ReportPlane> planes;
   std::vector<Eigen::Vector3d> points;                ///< metres, world
   std::optional<Eigen::Quaterniond> world_from_axes;  ///< Manhattan axes, if there are any
   std::vector<ReportSession> sessions;                ///< earlier runs, in order; may be empty

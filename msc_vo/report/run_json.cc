@@ -51,6 +51,10 @@ uint16_t ToSubMap(int number) {
   return number >= 0 && number < kNoSubMap ? static_cast<uint16_t>(number) : kNoSubMap;
 }
 
+uint8_t ToAxis(int axis) {
+  return axis >= 0 && axis < kNoAxis ? static_cast<uint8_t>(axis) : kNoAxis;
+}
+
 float ToFloat(const std::optional<double>& value) {
   return value ? static_cast<float>(*value) : kNone;
 }
@@ -136,6 +140,23 @@ Json PosesToJson(const std::vector<ReportFrame>& frames) {
   return {{"pose", EncodeBase64(pose)}, {"submap", EncodeBase64(submap)}};
 }
 
+// Triangles of the polygons, and the axis of each triangle.
+Json PlanesToJson(const std::vector<ReportPlane>& planes) {
+  std::vector<float> triangles;
+  std::vector<uint8_t> axes;
+  for (const ReportPlane& plane : planes) {
+    const bool is_finite =
+        std::all_of(plane.extent.begin(), plane.extent.end(),
+                    [](const Eigen::Vector3d& vertex) { return vertex.allFinite(); });
+    if (!is_finite) continue;
+    for (size_t i = 2; i < plane.extent.size(); ++i) {
+      for (const size_t corner : {size_t{0}, i - 1, i}) Append(plane.extent[corner], &triangles);
+      axes.push_back(ToAxis(plane.axis));
+    }
+  }
+  return {{"triangles", EncodeBase64(triangles)}, {"axes", EncodeBase64(axes)}};
+}
+
 Json MapToJson(const ReportMap& map) {
   std::vector<float> lines, points;
   std::vector<uint8_t> axes;
@@ -144,8 +165,7 @@ Json MapToJson(const ReportMap& map) {
     if (!line.segment.start.allFinite() || !line.segment.end.allFinite()) continue;
     Append(line.segment.start, &lines);
     Append(line.segment.end, &lines);
-    axes.push_back(line.axis >= 0 && line.axis < kNoAxis ? static_cast<uint8_t>(line.axis)
-                                                         : kNoAxis);
+    axes.push_back(ToAxis(line.axis));
   }
   for (size_t i = 0; i < map.points.size(); i += StrideFor(map.points.size(), kMaxPoints)) {
     if (map.points[i].allFinite()) Append(map.points[i], &points);
@@ -153,6 +173,7 @@ Json MapToJson(const ReportMap& map) {
   Json json = {{"lines", EncodeBase64(lines)},
                {"line_axes", EncodeBase64(axes)},
                {"points", EncodeBase64(points)}};
+  if (!map.planes.empty()) json["planes"] = PlanesToJson(map.planes);
   if (!map.sessions.empty()) json["sessions"] = SessionsToJson(map.sessions);
   if (map.world_from_axes) json["axes"] = RotationToJson(map.world_from_axes->toRotationMatrix());
   return json;

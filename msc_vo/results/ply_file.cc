@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
@@ -17,12 +18,16 @@ std::string FormatVertex(const Eigen::Vector3d& x) {
   return FormatText("%.6f %.6f %.6f", x.x(), x.y(), x.z());
 }
 
+constexpr const char* kAxisColors[] = {"255 0 0", "0 255 0", "0 0 255"};
+
 // Colours of Fig. 1 of the paper, see FormatLinesPly.
 const char* PlyLineColor(const MapLine& line) {
   if (!line.in_last_window) return "0 0 0";
-  if (!line.axis) return "128 0 128";
-  constexpr const char* kAxisColors[] = {"255 0 0", "0 255 0", "0 0 255"};
-  return kAxisColors[*line.axis];
+  return line.axis ? kAxisColors[*line.axis] : "128 0 128";
+}
+
+const char* PlyPlaneColor(const MapPlane& plane) {
+  return plane.axis ? kAxisColors[*plane.axis] : "128 128 128";
 }
 
 // An element of a PLY file: a table with named columns.
@@ -30,6 +35,7 @@ struct PlyElement {
   std::string name;
   TextLine declaration;
   size_t num_rows = 0;
+  bool is_list = false;  // its only property: the row has its length, then as many numbers
   std::vector<std::string> columns;
   std::vector<TextLine> lines;  // lines of the file that contain the rows
   std::vector<std::vector<double>> rows;
@@ -71,9 +77,14 @@ std::vector<PlyElement> ReadHeader(const std::vector<TextLine>& lines, size_t* n
     if (fields[0] == "element" && fields.size() == 3) {
       const std::optional<double> count = ParseNumber(fields[2]);
       if (!count || !IsCount(*count)) Fail(line, "a whole number of rows");
-      elements.push_back({fields[1], line, static_cast<size_t>(*count), {}, {}, {}});
-    } else if (fields[0] == "property" && fields.size() == 3 && !elements.empty()) {
+      elements.push_back({fields[1], line, static_cast<size_t>(*count), false, {}, {}, {}});
+    } else if (fields[0] == "property" && fields.size() == 3 && !elements.empty() &&
+               !elements.back().is_list) {
       elements.back().columns.push_back(fields[2]);
+    } else if (fields[0] == "property" && fields.size() == 5 && fields[1] == "list" &&
+               fields[4] == "vertex_indices" && !elements.empty() &&
+               elements.back().columns.empty() && !elements.back().is_list) {
+      elements.back().is_list = true;
     } else {
       Fail(line, "'comment', 'element NAME COUNT', 'property TYPE NAME' or 'end_header'");
     }
@@ -95,7 +106,12 @@ std::vector<PlyElement> ReadPly(const std::string& path) {
       }
       element.rows.push_back(ParseNumbers(lines[next]));
       element.lines.push_back(lines[next]);
-      if (element.rows.back().size() != element.columns.size()) {
+      const std::vector<double>& numbers = element.rows.back();
+      if (element.is_list) {
+        if (numbers[0] != static_cast<double>(numbers.size() - 1)) {
+          Fail(lines[next], "the number of vertices, then as many indices");
+        }
+      } else if (numbers.size() != element.columns.size()) {
         Fail(lines[next], std::to_string(element.columns.size()) +
                               " numbers, one per property of '" + element.name + "'");
       }
@@ -125,6 +141,24 @@ std::vector<Eigen::Vector3d> ReadVectors(const PlyElement& vertices, const std::
   return vectors;
 }
 
+bool IsIndex(double value, size_t size) {
+  return IsCount(value) && value < static_cast<double>(size);
+}
+
+// The colour of vertex `i`.
+std::array<uint8_t, 3> ColorOf(const PlyElement& vertices,
+                               const std::vector<Eigen::Vector3d>& colors, size_t i) {
+  std::array<uint8_t, 3> color = {};
+  for (size_t k = 0; k < 3; ++k) {
+    const double channel = colors[i][static_cast<Eigen::Index>(k)];
+    if (!IsCount(channel) || channel > 255.0) {
+      Fail(vertices.lines[i], "a colour of three numbers from 0 to 255");
+    }
+    color[k] = static_cast<uint8_t>(channel);
+  }
+  return color;
+}
+
 // Indices of the two vertices of an edge.
 struct EdgeEnds {
   size_t start = 0;
@@ -137,9 +171,7 @@ std::vector<EdgeEnds> ReadEdgeEnds(const PlyElement& edges,
   std::vector<EdgeEnds> ends;
   for (size_t i = 0; i < edges.rows.size(); ++i) {
     for (const size_t column : columns) {
-      const double index = edges.rows[i][column];
-      if (index != std::floor(index) || index < 0.0 ||
-          index >= static_cast<double>(positions.size())) {
+      if (!IsIndex(edges.rows[i][column], positions.size())) {
         Fail(edges.lines[i],
              "two of the " + std::to_string(positions.size()) + " vertices, counted from 0");
       }
@@ -187,6 +219,32 @@ std::string FormatLinesPly(const std::vector<MapLine>& lines) {
     text += FormatText("%zu %zu %s\n", 2 * i, 2 * i + 1, PlyLineColor(lines[i]));
   }
   return text;
+}
+
+std::string FormatPlanesPly(const std::vector<MapPlane>& planes) {
+  size_t num_vertices = 0, num_faces = 0;
+  std::string vertices, faces;
+  for (const MapPlane& plane : planes) {
+    if (plane.extent.empty()) continue;
+    ++num_faces;
+    faces += FormatText("%zu", plane.extent.size());
+    for (const Eigen::Vector3d& vertex : plane.extent) {
+      vertices += FormatVertex(vertex) + " " + FormatVertex(plane.plane.normal()) +
+                  FormatText(" %s %d\n", PlyPlaneColor(plane), plane.num_observations);
+      faces += FormatText(" %zu", num_vertices++);
+    }
+    faces += "\n";
+  }
+  return FormatText(
+             "ply\nformat ascii 1.0\ncomment msc_vo map planes, metres; normals point to the "
+             "cameras\n"
+             "element vertex %zu\nproperty float x\nproperty float y\nproperty float z\n"
+             "property float nx\nproperty float ny\nproperty float nz\n"
+             "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+             "property int observations\n"
+             "element face %zu\nproperty list uchar int vertex_indices\nend_header\n",
+             num_vertices, num_faces) +
+         vertices + faces;
 }
 
 std::string FormatEdgesPly(const std::vector<LineSegment3>& edges) {
@@ -253,17 +311,34 @@ std::vector<ColoredEdge> ReadColoredEdgesPly(const std::string& path) {
   const std::vector<Eigen::Vector3d> colors = ReadVectors(vertices, "red", "green", "blue");
   std::vector<ColoredEdge> edges;
   for (const EdgeEnds& ends : ReadEdgeEnds(FindElement(elements, "edge", path), positions)) {
-    ColoredEdge edge = {{positions[ends.start], positions[ends.end]}, {}};
-    for (size_t i = 0; i < 3; ++i) {
-      const double channel = colors[ends.start][static_cast<Eigen::Index>(i)];
-      if (!IsCount(channel) || channel > 255.0) {
-        Fail(vertices.lines[ends.start], "a colour of three numbers from 0 to 255");
-      }
-      edge.color[i] = static_cast<uint8_t>(channel);
-    }
-    edges.push_back(edge);
+    edges.push_back(
+        {{positions[ends.start], positions[ends.end]}, ColorOf(vertices, colors, ends.start)});
   }
   return edges;
+}
+
+std::vector<ColoredPolygon> ReadColoredPolygonsPly(const std::string& path) {
+  const std::vector<PlyElement> elements = ReadPly(path);
+  const PlyElement& vertices = FindElement(elements, "vertex", path);
+  const std::vector<Eigen::Vector3d> positions = ReadVectors(vertices, "x", "y", "z");
+  const std::vector<Eigen::Vector3d> colors = ReadVectors(vertices, "red", "green", "blue");
+  const PlyElement& faces = FindElement(elements, "face", path);
+  std::vector<ColoredPolygon> polygons;
+  for (size_t i = 0; i < faces.rows.size(); ++i) {
+    const std::vector<double>& row = faces.rows[i];
+    if (!faces.is_list || row.size() < 4) Fail(faces.lines[i], "three or more vertices of a face");
+    ColoredPolygon polygon;
+    for (size_t k = 1; k < row.size(); ++k) {
+      if (!IsIndex(row[k], positions.size())) {
+        Fail(faces.lines[i],
+             "indices of the " + std::to_string(positions.size()) + " vertices, counted from 0");
+      }
+      polygon.vertices.push_back(positions[static_cast<size_t>(row[k])]);
+    }
+    polygon.color = ColorOf(vertices, colors, static_cast<size_t>(row[1]));
+    polygons.push_back(std::move(polygon));
+  }
+  return polygons;
 }
 
 }  // namespace msc_vo

@@ -24,6 +24,11 @@ std::string FormatPointsPly(const std::vector<MapPoint>& points);
 /// local bundle adjustment.
 std::string FormatLinesPly(const std::vector<MapLine>& lines);
 
+/// Map planes: faces over vertices with x y z, the normal nx ny nz (towards the observing cameras),
+/// a colour and the number of observations. Colours: red, green, blue by the Manhattan axis that
+/// the normal is parallel to, grey without axis. Planes without a known extent are left out.
+std::string FormatPlanesPly(const std::vector<MapPlane>& planes);
+
 /// Line segments: edges between pairs of vertices with x y z.
 std::string FormatEdgesPly(const std::vector<LineSegment3>& edges);
 
@@ -43,5 +48,13 @@ struct ColoredEdge {
 };
 /// Reads lines and colours of the file of FormatLinesPly, with the same errors.
 std::vector<ColoredEdge> ReadColoredEdgesPly(const std::string& path);
+
+/// A plane of a map as a convex polygon, and its colour.
+struct ColoredPolygon {
+  std::vector<Eigen::Vector3d> vertices;  ///< metres, world, counter-clockwise from the front
+  std::array<uint8_t, 3> color = {};
+};
+/// Reads the file of FormatPlanesPly, with the same errors.
+std::vector<ColoredPolygon> ReadColoredPolygonsPly(const std::string& path);
 
 }  // namespace msc_vo

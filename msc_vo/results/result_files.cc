@@ -8,6 +8,7 @@
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -34,6 +35,9 @@ std::string FileIn(const std::string& directory, const char* name) {
 constexpr const char* kFilesOfEveryRun[] = {"trajectory.txt", "keyframes.txt", "frames.csv",
                                             "map.ply",        "lines.ply",     "summary.json",
                                             "report.html"};
+
+// Written by runs with planes.
+constexpr char kPlanes[] = "planes.ply";
 
 // Calls `write` and adds the message of its exception to `problems`, one per line.
 void TryTo(const std::function<void()>& write, std::string* problems) {
@@ -64,7 +68,7 @@ void WriteResult(const std::string& path, const std::string& content, std::uintm
 
 std::vector<std::string> ResultFileNames() {
   std::vector<std::string> names(std::begin(kFilesOfEveryRun), std::end(kFilesOfEveryRun));
-  names.insert(names.end(), {"groundtruth.txt", "reference.txt", "sequence.json"});
+  names.insert(names.end(), {kPlanes, "groundtruth.txt", "reference.txt", "sequence.json"});
   return names;
 }
 
@@ -113,10 +117,13 @@ void RefuseToOverwriteInputs(const SequenceIndex& sequence, const std::vector<st
   for (const char* name : kFilesOfEveryRun) {
     RefuseToOverwrite(files, FileIn(directory, name));
   }
+  RefuseToOverwrite(files, FileIn(directory, kPlanes));
 }
 
 void RemoveResultFiles(const std::string& directory) {
-  for (const char* name : kFilesOfEveryRun) {
+  std::vector<const char*> names(std::begin(kFilesOfEveryRun), std::end(kFilesOfEveryRun));
+  names.push_back(kPlanes);  // would be taken for one of a run without planes
+  for (const char* name : names) {
     std::error_code error;
     std::filesystem::remove(FileIn(directory, name), error);
     if (error) {
@@ -131,13 +138,14 @@ std::string WriteResultFiles(const std::string& directory, const OdometryResult&
   MakeFolder(directory);
   const auto path = [&](const char* name) { return FileIn(directory, name); };
   const RunSummary summary = Summarize(result);
-  const std::pair<const char*, std::string> files[] = {
+  std::vector<std::pair<const char*, std::string>> files = {
       {"trajectory.txt", FormatTrajectory(TrajectoryOf(result))},
       {"keyframes.txt", FormatTrajectory(result.keyframes)},
       {"frames.csv", FormatFramesCsv(result.frames)},
       {"summary.json", FormatSummaryJson(summary, context)},
       {"map.ply", FormatPointsPly(result.points)},
       {"lines.ply", FormatLinesPly(result.lines)}};
+  if (!result.planes.empty()) files.emplace_back(kPlanes, FormatPlanesPly(result.planes));
   std::uintmax_t num_bytes = 0;
   for (const auto& [name, content] : files) num_bytes += content.size();
   std::string lost;

@@ -43,8 +43,9 @@ std::string SegmentErrorText(const std::vector<SegmentError>& errors) {
 }
 
 std::string MapText(const RunSummary& summary) {
-  return FormatText("%d keyframes, %d points, %d lines", summary.num_keyframes, summary.num_points,
-                    summary.num_lines);
+  const std::string text = FormatText("%d keyframes, %d points, %d lines", summary.num_keyframes,
+                                      summary.num_points, summary.num_lines);
+  return summary.num_planes == 0 ? text : text + FormatText(", %d planes", summary.num_planes);
 }
 
 std::string AxesText(const RunSummary& summary) {
@@ -213,6 +214,9 @@ ReportMap FinalMap(const OdometryResult& result, const Rigid3& to_from_world) {
                          line.axis.value_or(-1)});
   }
   for (const MapPoint& point : result.points) map.points.push_back(to_from_world * point.position);
+  for (const MapPlane& plane : result.planes) {
+    map.planes.push_back({to_from_world * plane.extent, plane.axis.value_or(-1)});
+  }
   if (result.axes.state != AxesState::kNone) {
     map.world_from_axes = to_from_world.rotation() * result.axes.world_from_axes;
   }

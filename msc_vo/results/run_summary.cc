@@ -94,6 +94,7 @@ RunSummary Summarize(const OdometryResult& result) {
   summary.num_keyframes = static_cast<int>(result.keyframes.size());
   summary.num_points = static_cast<int>(result.points.size());
   summary.num_lines = static_cast<int>(result.lines.size());
+  summary.num_planes = static_cast<int>(result.planes.size());
   for (const MapLine& line : result.lines) {
     if (line.axis) ++summary.num_axis_lines[*line.axis];
   }

@@ -48,6 +48,7 @@ struct RunSummary {
   int num_keyframes = 0;
   int num_points = 0;
   int num_lines = 0;
+  int num_planes = 0;
   std::array<int, 3> num_axis_lines = {0, 0, 0};  ///< map lines parallel to each Manhattan axis
   MapAxes axes;
   NoiseScale noise_scale;          ///< estimated scale of the sigmas of features

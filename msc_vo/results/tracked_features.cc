@@ -52,6 +52,11 @@ ReportMap ViewedMap(const MapSnapshot& snapshot) {
     map.lines.push_back({line.segment, AxisIn(snapshot, line).value_or(-1)});
   }
   for (const auto& [id, point] : snapshot.map.points()) map.points.push_back(point.position);
+  for (const PlaneLandmark& landmark : snapshot.planes.planes) {
+    const std::optional<int> axis =
+        snapshot.axes ? AxisOfPlane(*snapshot.axes, landmark.plane) : std::nullopt;
+    map.planes.push_back({landmark.extent, axis.value_or(-1)});
+  }
   ReportSession earlier;
   for (const auto& [id, keyframe] : snapshot.map.keyframes()) {
     if (!snapshot.map.IsOfEarlierSession(id)) break;  // ids ascend

@@ -54,6 +54,10 @@ std::optional<int> AxisOfLine(const AxesEstimate& axes, const LineLandmark& line
                        {line.segment.Direction(), line.direction_sigma});
 }
 
+std::optional<int> AxisOfPlane(const AxesEstimate& axes, const Plane& plane) {
+  return AssociateAxis(axes.world_from_axes, axes.sigma, {plane.normal(), kMaxAxisAngle});
+}
+
 void SceneAxes::Update(const Map& map, KeyframeId keyframe,
                        const std::vector<AxisEvidence>& normals) {
   if (!options_.enabled) return;

@@ -9,6 +9,7 @@
 
 #include "msc_vo/bundle_adjustment/window_data.h"
 #include "msc_vo/geometry/angles.h"
+#include "msc_vo/geometry/plane.h"
 #include "msc_vo/map/map.h"
 #include "msc_vo/map/snapshot.h"
 #include "msc_vo/structure/axes_estimator.h"
@@ -27,6 +28,10 @@ struct SceneAxesOptions {
 
 /// Index 0..2 of the axis that a map line is parallel to; std::nullopt if there is none.
 std::optional<int> AxisOfLine(const AxesEstimate& axes, const LineLandmark& line);
+
+/// Index 0..2 of the axis that the normal of a map plane is parallel to, within kMaxAxisAngle;
+/// std::nullopt if there is none.
+std::optional<int> AxisOfPlane(const AxesEstimate& axes, const Plane& plane);
 
 /// The Manhattan axes of the map (paper: Manhattan Axes Estimation and Association): found in one
 /// keyframe, refined over the lines of all windows, and associated with the lines of a window.

@@ -9,6 +9,7 @@
 
 #include "msc_vo/factors/pose_prior.h"
 #include "msc_vo/frame/feature_counts.h"
+#include "msc_vo/geometry/angles.h"
 #include "msc_vo/geometry/pose_covariance.h"
 #include "msc_vo/matching/local_map.h"
 #include "msc_vo/matching/plane_matcher.h"
@@ -49,6 +50,10 @@ PoseSummary WithDynamicObjects(PoseSummary last, const PoseSummary& first) {
   }
   return last;
 }
+
+// Few points state a third of their error (90 % quantile, hard scenes), or less.
+constexpr double kUnstatedError = 3.0;
+const PoseCovariance kLeastPoseError = IsotropicCovariance(DegreesToRadians(0.3), 0.003);
 
 // Error of a pose that is predicted over an interval (seconds), of a hand-held camera: it
 // accelerates, or, if its velocity is not known, moves.
@@ -299,8 +304,10 @@ TrackedFrame Tracker::TrackLocalMap(const Input& input, const FramePose& initial
     return SelectLocalMap(map, *tracked.frame, initial.cam_from_world, initial.matches,
                           ReferenceOrNewest(map, last_.reference), options_.max_local_keyframes);
   });
-  tracked.planes = MatchPlanes(tracked.frame->planes, input.snapshot.planes,
-                               initial.cam_from_world, 9.0 * initial.summary.covariance);
+  tracked.planes =
+      MatchPlanes(tracked.frame->planes, input.snapshot.planes, initial.cam_from_world,
+                  kUnstatedError * kUnstatedError * initial.summary.covariance +
+                      CovarianceOfCamera(initial.cam_from_world, kLeastPoseError));
   estimator->AddFactors(
       MakePlanePoseFactors(tracked.frame->planes, tracked.planes, input.snapshot.planes));
   const std::optional<FramePose> refined =

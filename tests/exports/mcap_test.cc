@@ -168,6 +168,30 @@ TEST_F(McapExportTest, HasTheMap) {
   EXPECT_EQ(bag->Read("/msc_vo/map_lines", 0), lines.bytes());
 }
 
+TEST_F(McapExportTest, HasPlanesAsTriangles) {
+  McapRun run;
+  run.frames = {Frame()};
+  EXPECT_EQ(Export(run)->FindTopic("/msc_vo/map_planes"), nullptr);
+  run.planes = {{{{1.0, 2.0, 3.0}, {0.0, 2.0, 3.0}, {0.0, 0.0, 3.0}}, {255, 0, 51}}};
+  const auto bag = Export(run);
+  ASSERT_NE(bag->FindTopic("/msc_vo/map_planes"), nullptr);
+  MessageBytes planes = Cdr();
+  planes.Add(uint32_t{1});
+  AddHeader(1305031102, 175304000, "map", &planes);
+  planes.AddText("map_planes").Add(int32_t{0}).Add(int32_t{11}).Add(int32_t{0});
+  planes.AddEach(Numbers{0, 0, 0, 0, 0, 0, 1}).AddEach(Numbers{1, 1, 1});
+  for (int i = 0; i < 3; ++i) planes.Add(1.0f);
+  planes.Add(0.5f);
+  planes.Add(int32_t{0}).Add(uint32_t{0}).Add(uint8_t{0});
+  planes.Add(uint32_t{3}).AddEach(Numbers{3, -1, -2, 3, 0, -2, 3, 0, 0}).Add(uint32_t{3});
+  for (int i = 0; i < 3; ++i) planes.Add(1.0f).Add(0.0f).Add(51.0f / 255.0f).Add(0.5f);
+  planes.AddText("");
+  AddHeader(0, 0, "", &planes);
+  planes.AddText("").AddArray("").Add(uint32_t{0}).AddText("").AddText("");
+  planes.AddText("").AddArray("").Add(uint8_t{0});
+  EXPECT_EQ(bag->Read("/msc_vo/map_planes", 0), planes.bytes());
+}
+
 TEST_F(McapExportTest, HasImagesAsTheyAre) {
   const std::string png = "\x89PNG and the rest";
   WriteText("a.png", png);

@@ -3,11 +3,13 @@
 
 #include "msc_vo/features/plane_extractor.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "tests/features/depth_images.h"
 #include "tests/support/lenses.h"
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "msc_vo/camera/undistorted_camera.h"
@@ -61,7 +63,6 @@ TEST(PlaneExtractor, IsExactThroughAWideLens) {
 TEST(PlaneExtractor, HasTheCovarianceOfItsErrors) {
   const PinholeCamera camera;
   PlaneExtractorOptions options;
-  options.common_sigma = 0.0;
   PlaneExtractor extractor(options, camera, {});
   const cv::Mat exact =
       DrawDepth(camera, [&](const Vector2d& pixel) { return kWall.dot(camera.Ray(pixel)); });
@@ -87,6 +88,45 @@ TEST(PlaneExtractor, MissingDepthDoesNotMatter) {
   const auto planes = Extract(camera, depth);
   ASSERT_EQ(planes.size(), 1u);
   EXPECT_LT((planes[0].inverse_depth - kWall).norm(), 1e-4);
+}
+
+// The wall of Corner() shows where its inverse depth is the larger one.
+TEST(PlaneExtractor, HasTheHullOfItsPixels) {
+  const PinholeCamera camera;
+  const auto planes = Extract(
+      camera, DrawDepth(camera, [&](const Vector2d& pixel) { return Corner(camera, pixel); }));
+  ASSERT_EQ(planes.size(), 2u);
+  constexpr double kCell = 16.0;  // pixels
+  double area = 0.0;
+  for (const PlaneFeature& plane : planes) {
+    EXPECT_GE(plane.hull.size(), 3u);
+    EXPECT_LE(plane.hull.size(), PlaneFeature::kMaxHullVertices);
+    // The cells along the edge between the planes form steps.
+    EXPECT_NEAR(Area(plane.hull) * camera.fx * camera.fy, plane.num_pixels,
+                0.5 * kCell * camera.width);
+    area += Area(plane.hull);
+  }
+  EXPECT_NEAR(area * camera.fx * camera.fy, camera.width * camera.height,
+              0.05 * camera.width * camera.height);
+  for (const Vector2d& vertex : planes[0].hull) {
+    EXPECT_GT((kWall - kFloor).dot(vertex.homogeneous()), -kCell / camera.fx) << "on the floor";
+  }
+}
+
+TEST(PlaneExtractor, HasTheHullOfItsPixelsThroughAWideLens) {
+  PinholeCamera camera = WideCamera();
+  LensDistortion lens = WideLens();
+  CropToFieldOfView(100.0, &lens, &camera);
+  const cv::Mat depth = DrawDepth(*lens.recorded, [&](const Vector2d& pixel) {
+    return std::max(0.0, kWall.dot(camera.Ray(lens.Undistort(camera, pixel))));
+  });
+  const auto planes = PlaneExtractor({}, camera, lens).Extract(depth);
+  ASSERT_EQ(planes.size(), 1u);
+  ASSERT_GE(planes[0].hull.size(), 4u);
+  for (const Vector2d& vertex : planes[0].hull) {
+    EXPECT_TRUE(camera.IsInside(camera.Project(vertex.homogeneous())));
+  }
+  EXPECT_GT(Area(planes[0].hull) * camera.fx * camera.fy, 0.7 * camera.width * camera.height);
 }
 
 TEST(PlaneExtractor, FindsNoneOnABall) {

@@ -3,6 +3,7 @@
 
 #include "msc_vo/frame/frame_intrinsics.h"
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 namespace msc_vo {
@@ -50,6 +51,25 @@ TEST(ChangeIntrinsics, KeepsDepthsThatWereRegisteredOtherwise) {
   const auto changed = ChangeIntrinsics(FrameWith(Intrinsics(0.0, true)), Intrinsics(0.0, true));
   EXPECT_TRUE(changed->points[0].HasDepth());
   EXPECT_TRUE(changed->lines[0].depth);
+}
+
+// The same pixels show the same inverse depths.
+TEST(ChangeIntrinsics, KeepsThePixelsOfPlanes) {
+  const auto frame = std::make_shared<Frame>(*FrameWith(Intrinsics(0.0, false)));
+  PlaneFeature plane;
+  plane.inverse_depth = {0.1, -0.05, 0.4};
+  plane.hull = {{-0.2, -0.1}, {0.3, -0.1}, {0.1, 0.3}};
+  frame->planes = {plane};
+  CameraIntrinsics other = *frame->intrinsics;
+  other.camera = {550.0, 540.0, 330.0, 235.0, 640, 480};
+  const auto changed = ChangeIntrinsics(frame, std::make_shared<CameraIntrinsics>(other));
+  ASSERT_EQ(changed->planes[0].hull.size(), 3u);
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d before = plane.hull[i].homogeneous();
+    const Eigen::Vector3d now = changed->planes[0].hull[i].homogeneous();
+    EXPECT_LT((other.camera.Project(now) - kCamera.Project(before)).norm(), 1e-9);
+    EXPECT_NEAR(changed->planes[0].inverse_depth.dot(now), plane.inverse_depth.dot(before), 1e-12);
+  }
 }
 
 TEST(ChangeCamera, KeepsViewingRaysAndDepths) {

@@ -64,6 +64,8 @@ TEST_F(MapTest, IsRenumberedAfterAnother) {
   map_.SetStepCovariance(keyframes_[1], 3.0 * PoseCovariance::Identity());
   second.submaps.push_back({0, map_.Share(), {}, {}});
   second.loops.push_back({keyframes_[0], keyframes_[2], Rigid3(), PoseCovariance::Identity()});
+  second.submaps[0].planes.planes[5].host = keyframes_[1];
+  second.submaps[0].planes.observations[keyframes_[1]] = {{0, 5}};
   RenumberAfter(first, &second);
   EXPECT_EQ(second.sessions[0].first_keyframe, map_.next_keyframe());
   EXPECT_EQ(second.submaps[0].id, 1);
@@ -81,6 +83,10 @@ TEST_F(MapTest, IsRenumberedAfterAnother) {
   EXPECT_EQ(map.FindKeyframe(second_keyframe)->landmarks.points[1], b->id);
   EXPECT_NE(map.Find<LineLandmark>(map_.next_landmark() + line_), nullptr);
   EXPECT_EQ(second.loops[0].to, map_.next_keyframe() + keyframes_[2]);
+  const SavedPlanes& planes = second.submaps[0].planes;
+  EXPECT_EQ(planes.planes.at(5).host, second_keyframe);
+  ASSERT_EQ(planes.observations.size(), 1u);
+  EXPECT_EQ(planes.observations.at(second_keyframe)[0].plane, 5);
 }
 
 TEST_F(MapTest, StoresObservationsInLandmarkAndKeyframe) {

@@ -81,9 +81,9 @@ TEST_F(MapFileDamageTest, WritesIntoEmptyFileAndSaysThatItIsEmpty) {
 }
 
 TEST_F(MapFileDamageTest, RefusesNewerVersion) {
-  Change("PRAGMA user_version = 2");
-  EXPECT_THAT(Problem(), Names(path_, "version 2", "newer msc_vo"));
-  EXPECT_THAT(MessageOf([&] { MapWriter writer(path_); }), Names(path_, "version 2"));
+  Change("PRAGMA user_version = 3");
+  EXPECT_THAT(Problem(), Names(path_, "version 3", "newer msc_vo"));
+  EXPECT_THAT(MessageOf([&] { MapWriter writer(path_); }), Names(path_, "version 3"));
 }
 
 TEST_F(MapFileDamageTest, RefusesOtherTables) {
@@ -129,6 +129,36 @@ TEST_F(MapFileDamageTest, RefusesRowsThatDoNotFit) {
   }
   Write(valid);
   EXPECT_THAT(Problem(), IsEmpty());
+}
+
+TEST_F(MapFileDamageTest, RefusesPlanesThatDoNotFit) {
+  MapContents contents;
+  contents.sessions.push_back({0, "first"});
+  contents.submaps.push_back(WithPlanes(random_.Make(4)));
+  SaveMap(path_, std::move(contents));
+  const std::string valid = Read();
+  ASSERT_THAT(Problem(), IsEmpty());
+  for (const char* sql :
+       {"UPDATE plane SET d = d + 1 WHERE id = 1", "UPDATE plane SET nx = 2 WHERE id = 1",
+        "UPDATE plane SET id = -1 WHERE id = 1", "UPDATE plane SET submap = 4",
+        "UPDATE plane SET host = 9 WHERE id = 1",
+        "UPDATE plane SET extent = substr(extent, 1, 8) WHERE id = 1",
+        "UPDATE plane SET extent = x'01000000000000000000000000' WHERE id = 1",
+        "UPDATE plane SET extent = extent || x'00' WHERE id = 1",
+        "UPDATE plane SET observations = x'' WHERE id = 1",
+        "UPDATE plane SET observations = x'1000' WHERE id = 1",
+        "UPDATE plane SET observations = x'0008' WHERE id = 1",
+        "UPDATE plane SET observations = x'0000' WHERE id = 2",
+        "UPDATE plane SET observations = x'0000' WHERE id = 0",
+        "UPDATE plane_features SET planes = substr(planes, 1, 30)",
+        "UPDATE plane_features SET planes = zeroblob(length(planes))",
+        "UPDATE plane_features SET planes = x'' WHERE keyframe = 1",
+        "UPDATE plane_features SET keyframe = 9 WHERE keyframe = 1",
+        "DELETE FROM plane_features WHERE keyframe = 1", "UPDATE submap SET plane_noise = 0"}) {
+    Write(valid);
+    Change(sql);
+    EXPECT_THAT(Problem(), Names(path_, "damaged")) << sql;
+  }
 }
 
 // Every changed byte is noticed, or belongs to no row.

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
 #include <filesystem>
+#include <map>
+#include <utility>
 
 #include "tests/map_file/random_map.h"
 #include "tests/support/message_matchers.h"
@@ -126,6 +128,71 @@ TEST_F(MapFileTest, LoadsWhatWasSaved) {
   EXPECT_EQ(loaded.loops[0].to, 4);
   EXPECT_EQ(loaded.loops[0].covariance, PoseCovariance::Identity());
   EXPECT_NO_THROW(CheckMap(Path("home.map")));
+}
+
+void ExpectEqual(const PlaneFeature& a, const PlaneFeature& b) {
+  EXPECT_LT((a.inverse_depth - b.inverse_depth).norm(), 1e-7);
+  EXPECT_LT((a.covariance - b.covariance).norm(), 1e-12);
+  EXPECT_LT((a.mean_square_ray - b.mean_square_ray).norm(), 1e-7);
+  EXPECT_EQ(a.num_pixels, b.num_pixels);
+  ASSERT_EQ(a.hull.size(), b.hull.size());
+  for (size_t i = 0; i < a.hull.size(); ++i) EXPECT_LT((a.hull[i] - b.hull[i]).norm(), 1e-7);
+}
+
+// Planes are numbered anew, in their order.
+void ExpectSamePlanes(const SavedSubMap& loaded, const SavedSubMap& saved) {
+  EXPECT_EQ(loaded.planes.noise, saved.planes.noise);
+  ASSERT_EQ(loaded.planes.planes.size(), saved.planes.planes.size());
+  std::map<LandmarkId, LandmarkId> new_ids;
+  auto other = loaded.planes.planes.begin();
+  for (const auto& [id, plane] : saved.planes.planes) {
+    new_ids[id] = other->first;
+    EXPECT_EQ(other->second.host, plane.host);
+    EXPECT_EQ(other->second.in_host.params, plane.in_host.params);
+    EXPECT_EQ(other->second.extent, plane.extent);  // of numbers of 32 bits
+    ++other;
+  }
+  for (const auto& [id, keyframe] : saved.map.keyframes()) {
+    const std::vector<PlaneFeature>& planes = loaded.map.FindKeyframe(id)->frame->planes;
+    ASSERT_EQ(planes.size(), keyframe.frame->planes.size());
+    for (size_t i = 0; i < planes.size(); ++i) ExpectEqual(planes[i], keyframe.frame->planes[i]);
+    std::map<int, LandmarkId> found, expected;
+    for (const PlaneMatch& match : loaded.planes.observations.at(id)) {
+      found[match.feature] = match.plane;
+    }
+    for (const PlaneMatch& match : saved.planes.observations.at(id)) {
+      expected[match.feature] = new_ids.at(match.plane);
+    }
+    EXPECT_EQ(found, expected);
+  }
+}
+
+TEST_F(MapFileTest, LoadsThePlanesThatWereSaved) {
+  const auto contents_of = [](SavedSubMap* submap) {
+    MapContents contents;
+    contents.sessions.push_back({0, "first"});
+    contents.submaps.push_back(
+        {submap->id, submap->map.Share(), submap->axes, submap->noise_scale, submap->planes});
+    return contents;
+  };
+  SavedSubMap saved = WithPlanes(random_.Make(4));
+  MapWriter writer(Path("home.map"));
+  writer.Write(contents_of(&saved));
+  const auto load = [&] {
+    std::filesystem::copy_file(Path("home.map"), Path("copy.map"),
+                               std::filesystem::copy_options::overwrite_existing);
+    EXPECT_NO_THROW(CheckMap(Path("copy.map")));
+    return std::move(LoadMap(Path("copy.map")).submaps.at(0));
+  };
+  ExpectSamePlanes(load(), saved);
+  EXPECT_EQ(SummarizeMap(Path("copy.map")).submaps.at(0).num_planes, 5);
+  // A culled keyframe takes its planes with it, and the host of the other is another keyframe.
+  saved.map.RemoveKeyframe(3, 2);
+  saved.planes.observations.erase(3);
+  saved.planes.planes.erase(13);
+  saved.planes.planes.at(3).host = 1;
+  writer.Write(contents_of(&saved));
+  ExpectSamePlanes(load(), saved);
 }
 
 TEST_F(MapFileTest, LeavesOutFeaturesThatObserveNothing) {

@@ -67,7 +67,11 @@ TEST_F(MapVersionsTest, ExtendsVersion1) {
   contents.sessions.push_back({contents.submaps[0].map.next_keyframe(), "third"});
   writer.Write(std::move(contents));
   std::filesystem::copy_file(path, Path("copy.map"));
-  EXPECT_EQ(LoadMap(Path("copy.map")).sessions.size(), 3u);
+  const MapContents extended = LoadMap(Path("copy.map"));
+  EXPECT_EQ(extended.sessions.size(), 3u);
+  EXPECT_NEAR(extended.submaps[0].noise_scale.line_pixel, 0.77900126102768, 1e-12);
+  EXPECT_EQ(extended.submaps[0].map.points().size(), 283u);
+  EXPECT_EQ(SummarizeMap(Path("copy.map")).version, 2);
 }
 
 }  // namespace

@@ -133,4 +133,41 @@ inline MapContents AsContents(Map map) {
   return contents;
 }
 
+// A random plane of a frame.
+inline PlaneFeature RandomPlane(std::mt19937* random) {
+  std::uniform_real_distribution<double> uniform(0.1, 0.5);
+  PlaneFeature plane;
+  for (double& x : plane.inverse_depth) x = uniform(*random);
+  plane.covariance = Eigen::Vector3d(1e-6, 2e-6, 3e-6).asDiagonal();
+  plane.covariance(0, 1) = plane.covariance(1, 0) = 5e-7;
+  plane.mean_square_ray = Eigen::Vector3d(0.1, 0.06, 1.0).asDiagonal();
+  plane.num_pixels = 20000;
+  plane.hull = {{-0.2, -0.1}, {uniform(*random), -0.1}, {0.1, uniform(*random)}};
+  return plane;
+}
+
+// The map with planes: each keyframe observes plane 3 and one of its own, from a frame that has
+// three planes.
+inline SavedSubMap WithPlanes(Map map) {
+  std::mt19937 random(7);
+  SavedSubMap submap;
+  std::vector<KeyframeId> keyframes;
+  for (const auto& [id, keyframe] : map.keyframes()) keyframes.push_back(id);
+  for (const KeyframeId id : keyframes) {
+    const auto frame = std::make_shared<Frame>(*map.FindKeyframe(id)->frame);
+    for (int i = 0; i < 3; ++i) frame->planes.push_back(RandomPlane(&random));
+    map.SetFrame(id, frame);
+    for (const LandmarkId plane : {LandmarkId{3}, 10 + id}) {
+      HostedPlane& hosted = submap.planes.planes[plane];
+      hosted.host = id;
+      hosted.in_host = Plane({0.6, 0.0, -0.8}, 1.5 + 0.1 * static_cast<double>(id));
+      hosted.extent = {{0.0, 0.0, 1.0}, {0.0, 1.0, 1.0}, {1.0, 1.0, 1.0}};
+    }
+    submap.planes.observations[id] = {{2, 3}, {0, 10 + id}};
+  }
+  submap.planes.noise = 0.4;
+  submap.map = std::move(map);
+  return submap;
+}
+
 }  // namespace msc_vo

@@ -4,9 +4,11 @@
 #include "msc_vo/mapping/plane_map.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -95,6 +97,116 @@ TEST_F(PlaneMapTest, LearnsEstimatesOfWindows) {
   }
   planes_.Learn(map_, window);
   EXPECT_LT((planes_.InWorld(map_).planes[1].plane.params - estimate.params).norm(), 1e-9);
+}
+
+// A patch of a wall at z = 2 that is seen from its front, between two values of x.
+PlaneFeature Patch(const Rigid3& cam_from_world, double min_x, double max_x, double depth = 2.0) {
+  PlaneFeature feature = FeatureOf(cam_from_world * Plane({0.0, 0.0, -1.0}, depth));
+  for (const double x : {min_x, max_x}) {
+    for (const double y : {-0.5, 0.5}) {
+      feature.hull.emplace_back((cam_from_world * Eigen::Vector3d(x, y, depth)).hnormalized());
+    }
+  }
+  feature.hull = ConvexHull(feature.hull);
+  return feature;
+}
+
+class PlaneExtentsTest : public testing::Test {
+ protected:
+  // A keyframe in front of the given place whose frame has one plane.
+  KeyframeId Add(double x, const std::function<PlaneFeature(const Rigid3&)>& feature,
+                 const Rigid3& error = {}) {
+    const Rigid3 pose(Eigen::Quaterniond::Identity(), Eigen::Vector3d(-x, 0.0, 0.0));
+    auto frame = std::make_shared<Frame>();
+    frame->planes = {feature(pose)};
+    const KeyframeId id = map_.AddKeyframe(frame, error * pose);
+    planes_.AddKeyframe(map_, id);
+    return id;
+  }
+  KeyframeId AddPatch(double min_x, double max_x, const Rigid3& error = {}) {
+    return Add(
+        0.5 * (min_x + max_x), [&](const Rigid3& pose) { return Patch(pose, min_x, max_x); },
+        error);
+  }
+  std::vector<PlaneLandmark> Planes() const { return planes_.InWorld(map_).planes; }
+  static double Width(const PlaneLandmark& plane) {
+    double min = 1e9, max = -1e9;
+    for (const Eigen::Vector3d& vertex : plane.extent) {
+      min = std::min(min, vertex.x());
+      max = std::max(max, vertex.x());
+    }
+    return max - min;
+  }
+  static Rigid3 Forward(double metres) {
+    return {Eigen::Quaterniond::Identity(), Eigen::Vector3d(0.0, 0.0, metres)};
+  }
+
+  Map map_;
+  PlaneMap planes_;
+};
+
+TEST_F(PlaneExtentsTest, GrowByWhatKeyframesShow) {
+  AddPatch(-1.0, 0.0);
+  ASSERT_EQ(Planes().size(), 1u);
+  EXPECT_NEAR(Width(Planes()[0]), 1.0, 1e-9);
+  AddPatch(-0.2, 1.3);
+  ASSERT_EQ(Planes().size(), 1u);
+  EXPECT_NEAR(Width(Planes()[0]), 2.3, 1e-9);
+  EXPECT_EQ(Planes()[0].extent.size(), 4u);
+  for (const Eigen::Vector3d& vertex : Planes()[0].extent) EXPECT_NEAR(vertex.z(), 2.0, 1e-9);
+}
+
+// A keyframe whose pose is wrong takes a wall for another one. When a better one sees both parts,
+// they become one.
+TEST_F(PlaneExtentsTest, MergePartsOfOneWall) {
+  AddPatch(-1.0, 0.0);
+  const KeyframeId wrong = AddPatch(0.1, 1.0, Forward(0.2));
+  ASSERT_EQ(Planes().size(), 2u);
+  map_.SetPose(wrong, Forward(-0.2) * map_.FindKeyframe(wrong)->cam_from_world);
+  AddPatch(-1.0, 0.0);
+  ASSERT_EQ(Planes().size(), 1u);
+  EXPECT_NEAR(Width(Planes()[0]), 2.0, 1e-9);
+  // The keyframes of both observe it.
+  const SavedPlanes saved = planes_.Save(map_);
+  for (const auto& [id, matches] : saved.observations) EXPECT_EQ(matches[0].plane, Planes()[0].id);
+  EXPECT_EQ(saved.observations.size(), 3u);
+}
+
+TEST_F(PlaneExtentsTest, KeepPartsApartThatDoNotTouch) {
+  AddPatch(-1.0, 0.0);
+  const KeyframeId wrong = AddPatch(1.0, 2.0, Forward(0.2));
+  map_.SetPose(wrong, Forward(-0.2) * map_.FindKeyframe(wrong)->cam_from_world);
+  AddPatch(-1.0, 0.0);
+  EXPECT_EQ(Planes().size(), 2u);
+}
+
+TEST_F(PlaneExtentsTest, KeepADoorApartFromItsWall) {
+  AddPatch(-1.0, 0.0);
+  Add(0.5, [](const Rigid3& pose) { return Patch(pose, 0.05, 0.9, 1.9); });
+  AddPatch(-1.0, 0.0);
+  EXPECT_EQ(Planes().size(), 2u);
+}
+
+TEST_F(PlaneExtentsTest, AreSavedWithAHostThatIsInTheMap) {
+  AddPatch(-1.0, 0.0);
+  AddPatch(-0.2, 1.3);
+  const std::vector<PlaneLandmark> before = Planes();
+  map_.RemoveKeyframe(0, 1);
+  planes_.Renew(map_);
+  const SavedPlanes saved = planes_.Save(map_);
+  ASSERT_EQ(saved.planes.size(), 1u);
+  EXPECT_EQ(saved.planes.begin()->second.host, 1);
+  EXPECT_EQ(saved.observations.size(), 1u);
+  PlaneMap restored;
+  restored.Restore(saved);
+  const std::vector<PlaneLandmark> after = restored.InWorld(map_).planes;
+  ASSERT_EQ(after.size(), 1u);
+  EXPECT_LT((after[0].plane.params - before[0].plane.params).norm(), 1e-9);
+  EXPECT_NEAR(Width(after[0]), Width(before[0]), 1e-9);
+  // Further planes have other ids.
+  planes_ = restored;
+  Add(0.0, [](const Rigid3& pose) { return Patch(pose, -0.2, 0.2, 1.0); });
+  EXPECT_EQ(Planes().size(), 2u);
 }
 
 TEST_F(PlaneMapTest, JoinsKeepThePlanesOfBothMaps) {

@@ -3,6 +3,9 @@
 
 #include "msc_vo/matching/plane_matcher.h"
 
+#include <cmath>
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "msc_vo/geometry/so3.h"
@@ -50,6 +53,41 @@ TEST(MatchPlanes, TellsParallelPlanesApart) {
 
 TEST(MatchPlanes, MatchesPartsOfOneWallWithIt) {
   EXPECT_EQ(MatchPlanes({FeatureOf(kWall), FeatureOf(kWall)}, MapOf({kWall}), {}).size(), 2u);
+}
+
+// An extent of one square metre on the plane z = 2.
+PlaneExtent Square(double x) {
+  return {{x, 0.0, 2.0}, {x, 1.0, 2.0}, {x + 1.0, 1.0, 2.0}, {x + 1.0, 0.0, 2.0}};
+}
+
+TEST(MatchPlanes, PrefersThePlaneWhoseExtentIsSeen) {
+  MapPlanes map = MapOf({kWall, Plane({0.0, 0.0, -1.0}, 2.01)});
+  map.planes[0].extent = Square(3.0);
+  map.planes[1].extent = Square(0.0);
+  PlaneFeature feature = FeatureOf(kWall);
+  EXPECT_EQ(MatchPlanes({feature}, map, {})[0].plane, 0) << "without a hull, the nearest";
+  feature.hull = {{0.1, 0.1}, {0.4, 0.1}, {0.2, 0.4}};
+  EXPECT_EQ(MatchPlanes({feature}, map, {})[0].plane, 10);
+  std::swap(map.planes[0].extent, map.planes[1].extent);
+  EXPECT_EQ(MatchPlanes({feature}, map, {})[0].plane, 0);
+  map.planes[0].extent = map.planes[1].extent;
+  EXPECT_EQ(MatchPlanes({feature}, map, {})[0].plane, 0) << "if none is seen, the nearest";
+}
+
+TEST(AreSamePlane, WithinTheUncertaintyOfTheFeature) {
+  const PlaneFeature feature = FeatureOf(kWall);  // of 4e-3 1/m, that is 16 mm at 2 m
+  const auto same = [&](const Plane& other, double x = 0.0) {
+    return AreSamePlane(feature, {0, kWall, Square(0.0)}, {1, other, Square(x)}, 1.0);
+  };
+  EXPECT_TRUE(same({{0.0, 0.0, -1.0}, 2.03}));
+  EXPECT_FALSE(same({{0.0, 0.0, -1.0}, 2.08}));
+  // A tilt that the patch of the feature tolerates, but not the far end of the other extent.
+  const double angle = 0.02;
+  const Plane tilted({std::sin(angle), 0.0, -std::cos(angle)}, 2.0 * std::cos(angle));
+  EXPECT_TRUE(same(tilted));
+  EXPECT_FALSE(AreSamePlane(feature, {0, kWall, {}},
+                            {1, tilted, {{5.0, 0.0, 2.1}, {5.0, 1.0, 2.1}, {6.0, 0.0, 2.12}}},
+                            0.2));
 }
 
 // A wall has two sides.

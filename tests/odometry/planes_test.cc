@@ -75,6 +75,25 @@ TEST_F(PlanesTest, HoldTheCameraWherePointsAndLinesDoNot) {
   EXPECT_LT(num_without, kNumImages / 2);
 }
 
+TEST_F(PlanesTest, AreInTheResultWithTheirExtents) {
+  EXPECT_TRUE(Track({}).planes.empty());
+  const OdometryResult result = Track(WithPlanes());
+  ASSERT_GE(result.planes.size(), 3u);  // two walls and the floor
+  int num_large = 0;
+  for (const MapPlane& plane : result.planes) {
+    EXPECT_GE(plane.extent.size(), 3u);
+    EXPECT_GE(plane.num_observations, 1);
+    Eigen::Vector3d area = Eigen::Vector3d::Zero();
+    for (size_t i = 0; i < plane.extent.size(); ++i) {
+      EXPECT_NEAR(plane.plane.normal().dot(plane.extent[i]) + plane.plane.offset(), 0.0, 1e-9);
+      area += 0.5 * plane.extent[i].cross(plane.extent[(i + 1) % plane.extent.size()]);
+    }
+    EXPECT_GT(area.dot(plane.plane.normal()), 0.0) << "counter-clockwise from the front";
+    num_large += area.norm() > 1.0;
+  }
+  EXPECT_GE(num_large, 3);
+}
+
 TEST_F(PlanesTest, GiveTheSamePosesAtAnyNumberOfThreadsAndAfterACheckpoint) {
   OdometryOptions one = WithPlanes(), two = one;
   one.threads = 1;

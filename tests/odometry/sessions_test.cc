@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "tests/support/rendered_images.h"
@@ -140,6 +141,87 @@ TEST_F(SessionsTest, ExtendsTheMap) {
   }
   EXPECT_TRUE(observes_old_landmark);
   EXPECT_FALSE(map.IsOfEarlierSession(map.keyframes().back().first));
+}
+
+// Two runs with planes over the same images, the second in the map of the first.
+class PlaneSessionsTest : public SessionsTest {
+ protected:
+  static OdometryOptions WithPlanes() {
+    OdometryOptions options = Options();
+    options.features.extract_planes = true;
+    return options;
+  }
+  static MapContents FirstMap() {
+    Odometry odometry(WithPlanes(), camera_, LensDistortion());
+    for (const RgbdImage& image : *images_) odometry.Process(image);
+    return *odometry.ShareMaps("first");
+  }
+  // Expects that hosts and observations name keyframes, features and planes that exist, and that
+  // every plane is observed.
+  static void ExpectValidPlanes(const SavedSubMap& submap) {
+    std::set<LandmarkId> observed;
+    for (const auto& [id, matches] : submap.planes.observations) {
+      const Keyframe* const keyframe = submap.map.FindKeyframe(id);
+      ASSERT_NE(keyframe, nullptr);
+      for (const PlaneMatch& match : matches) {
+        EXPECT_LT(static_cast<size_t>(match.feature), keyframe->frame->planes.size());
+        EXPECT_EQ(submap.planes.planes.count(match.plane), 1u);
+        observed.insert(match.plane);
+      }
+    }
+    for (const auto& [id, plane] : submap.planes.planes) {
+      EXPECT_NE(submap.map.FindKeyframe(plane.host), nullptr);
+      EXPECT_EQ(observed.count(id), 1u);
+      EXPECT_GE(plane.extent.size(), 3u);
+    }
+  }
+  // The number of planes that keyframes before and after `first` observe.
+  static int NumShared(const SavedSubMap& submap, KeyframeId first) {
+    std::set<LandmarkId> before, shared;
+    for (const auto& [id, matches] : submap.planes.observations) {  // by ascending id
+      for (const PlaneMatch& match : matches) {
+        if (id < first) before.insert(match.plane);
+        if (id >= first && before.count(match.plane) > 0) shared.insert(match.plane);
+      }
+    }
+    return static_cast<int>(shared.size());
+  }
+};
+
+TEST_F(PlaneSessionsTest, UseThePlanesOfTheMap) {
+  MapContents first = FirstMap();
+  ExpectValidPlanes(first.submaps[0]);
+  const size_t num_first = first.submaps[0].planes.planes.size();
+  EXPECT_GE(num_first, 4u);
+  Odometry odometry(WithPlanes(), camera_, LensDistortion());
+  odometry.SetMap(std::move(first));
+  for (int i = kFirst; i < kNumFrames; ++i) {
+    RgbdImage image = (*images_)[i];
+    image.id = i - kFirst;
+    image.timestamp += 100.0;
+    odometry.Process(image);
+  }
+  const OdometryResult result = odometry.Finish();
+  EXPECT_EQ(result.segments[1].world, 0);
+  EXPECT_LT(LargestDistance(result), 0.01);
+  const MapContents both = *odometry.ShareMaps("second");
+  ASSERT_EQ(both.submaps.size(), 1u);
+  ExpectValidPlanes(both.submaps[0]);
+  EXPECT_GE(NumShared(both.submaps[0], both.sessions[1].first_keyframe), 2);
+  // Duplicates from before the join become one.
+  EXPECT_LT(both.submaps[0].planes.planes.size(), 2 * num_first);
+}
+
+TEST_F(PlaneSessionsTest, MergedMapsShareTheirPlanes) {
+  MapContents first = FirstMap(), second = FirstMap();
+  const size_t num_first = first.submaps[0].planes.planes.size();
+  second.submaps[0].map.Transform(
+      {Eigen::Quaterniond(Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitY())), {3.0, -1.0, 2.0}});
+  const MapMerge merge = MergeMaps(WithPlanes(), std::move(first), std::move(second));
+  ASSERT_EQ(merge.contents.submaps.size(), 1u);
+  ExpectValidPlanes(merge.contents.submaps[0]);
+  EXPECT_GE(NumShared(merge.contents.submaps[0], merge.contents.sessions[1].first_keyframe), 2);
+  EXPECT_LT(merge.contents.submaps[0].planes.planes.size(), 2 * num_first);
 }
 
 // A third run in the map of two, which share a world, or have one each.

@@ -180,7 +180,24 @@ class Results(unittest.TestCase):
         self.assertEqual(result.trajectory.shape, (0, 8))
         self.assertEqual(result.points.shape, (0, 3))
         self.assertEqual(result.lines.shape, (0, 6))
+        self.assertEqual(result.planes.shape, (0, 4))
+        self.assertEqual(result.plane_extents, [])
         self.assertIsNone(result.world_from_axes)
+
+
+    def test_planes_have_extents_and_axes(self):
+        self.assertEqual(len(support.room_result().planes), 0)  # not used unless asked for
+        odometry = support.room_odometry(use_planes=True)
+        support.process(odometry, support.room_images())
+        result = odometry.finish()
+        self.assertGreater(len(result.planes), 2)
+        self.assertEqual(len(result.plane_extents), len(result.planes))
+        for plane, extent in zip(result.planes, result.plane_extents):
+            self.assertAlmostEqual(np.linalg.norm(plane[:3]), 1.0)
+            self.assertGreaterEqual(len(extent), 3)
+            np.testing.assert_allclose(extent @ plane[:3], -plane[3], atol=1e-9)
+        self.assertGreater(result.plane_observations.max(), 2)
+        self.assertGreater(np.count_nonzero(result.plane_axes >= 0), 2)
 
 
 class Arrays(unittest.TestCase):

@@ -3,6 +3,8 @@
 
 #include "msc_vo/report/run_json.h"
 
+#include <cmath>
+
 #include "fake_run.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -111,6 +113,19 @@ TEST(RunJson, StoresThePathBeforeLoopsAndThoseOfEarlierSessions) {
   EXPECT_EQ(run["map"]["sessions"][0]["name"], "monday");
   EXPECT_EQ(run["map"]["sessions"][1]["positions"],
             EncodeBase64(std::vector<float>{0, 1, 0, 0, 2, 0}));
+}
+
+TEST(RunJson, StoresPlanesAsTriangles) {
+  ReportData data = MakeFakeRun(3);
+  EXPECT_FALSE(json::parse(FormatRunJson(data))["map"].contains("planes"));
+  data.map.planes = {{{{0, 0, 2}, {0, 1, 2}, {1, 1, 2}, {1, 0, 2}}, 1},
+                     {{{0, 0, 1}, {0, 1, 1}, {1, 1, std::nan("")}}, 0},
+                     {{{0, 0, 1}, {0, 1, 1}, {1, 1, 1}}, -1}};
+  const json planes = json::parse(FormatRunJson(data))["map"]["planes"];
+  EXPECT_EQ(planes["triangles"],
+            EncodeBase64(std::vector<float>{0, 0, 2, 0, 1, 2, 1, 1, 2, 0, 0, 2, 1, 1,
+                                            2, 1, 0, 2, 0, 0, 1, 0, 1, 1, 1, 1, 1}));
+  EXPECT_EQ(planes["axes"], EncodeBase64(std::vector<uint8_t>{1, 1, 3}));
 }
 
 TEST(RunJson, UpdatesHoldOnlyWhatIsNew) {

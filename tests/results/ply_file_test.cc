@@ -80,6 +80,49 @@ TEST_F(PlyFileTest, ReadsColoursOfWrittenLines) {
   EXPECT_THROW(ReadColoredEdgesPly(Path("lines.ply")), std::runtime_error);
 }
 
+std::vector<MapPlane> MakePlanes() {
+  MapPlane wall, slope;
+  wall.plane = Plane({0.0, 0.0, -1.0}, 2.0);
+  wall.extent = {{0.0, 0.0, 2.0}, {0.0, 1.0, 2.0}, {1.0, 1.0, 2.0}, {1.0, 0.0, 2.0}};
+  wall.num_observations = 7;
+  wall.axis = 2;
+  slope.plane = Plane({0.6, 0.0, -0.8}, 1.0);
+  slope.extent = {{0.0, 0.0, 1.25}, {0.0, 1.0, 1.25}, {1.0, 1.0, 2.0}};
+  slope.num_observations = 3;
+  return {wall, MapPlane(), slope};
+}
+
+TEST_F(PlyFileTest, WritesPlanesAsFaces) {
+  EXPECT_THAT(FormatPlanesPly(MakePlanes()),
+              AllOf(HasSubstr("element vertex 7\n"), HasSubstr("element face 2\n"),
+                    HasSubstr("\n1.000000 1.000000 2.000000 0.000000 0.000000 -1.000000 "
+                              "0 0 255 7\n"),
+                    HasSubstr("\n0.000000 1.000000 1.250000 0.600000 0.000000 -0.800000 "
+                              "128 128 128 3\n"),
+                    testing::EndsWith("\n4 0 1 2 3\n3 4 5 6\n")));
+}
+
+TEST_F(PlyFileTest, ReadsWrittenPlanes) {
+  const std::string text = FormatPlanesPly(MakePlanes());
+  WriteText("planes.ply", text);
+  const std::vector<ColoredPolygon> polygons = ReadColoredPolygonsPly(Path("planes.ply"));
+  ASSERT_EQ(polygons.size(), 2u);
+  EXPECT_EQ(polygons[0].vertices, MakePlanes()[0].extent);
+  EXPECT_EQ(polygons[0].color, (std::array<uint8_t, 3>{0, 0, 255}));
+  EXPECT_EQ(polygons[1].vertices, MakePlanes()[2].extent);
+  EXPECT_EQ(polygons[1].color, (std::array<uint8_t, 3>{128, 128, 128}));
+  const auto error_of = [&](const std::string& from, const std::string& to) {
+    std::string changed = text;
+    WriteText("planes.ply", changed.replace(changed.find(from), from.size(), to));
+    return MessageOf([&] { ReadColoredPolygonsPly(Path("planes.ply")); });
+  };
+  EXPECT_THAT(error_of("\n3 4 5 6\n", "\n3 4 5\n"), Names("planes.ply:26", "'3 4 5'"));
+  EXPECT_THAT(error_of("\n3 4 5 6\n", "\n3 4 5 7\n"), Names("planes.ply:26", "7 vertices"));
+  EXPECT_THAT(error_of("\n3 4 5 6\n", "\n2 4 5\n"), Names("planes.ply:26", "three or more"));
+  EXPECT_THAT(error_of(" 0 0 255 7", " 0 0 256 7"), Names("planes.ply:18", "colour"));
+  EXPECT_THAT(error_of("element face 2", "element side 2"), Names("planes.ply", "'face'"));
+}
+
 TEST_F(PlyFileTest, ReadsWrittenPoints) {
   WriteText("map.ply", FormatPointsPly({{{1.0, -2.0, 0.5}, 3}, {{0.0, 0.0, 4.0}, 9}}));
   const std::vector<MapPoint> points = ReadPointsPly(Path("map.ply"));

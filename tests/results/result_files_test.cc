@@ -260,6 +260,21 @@ TEST_F(ResultFilesTest, WritesTheOptionsInEffect) {
   EXPECT_THAT(report, HasSubstr("frame_structure: false"));
 }
 
+TEST_F(ResultFilesTest, WritesPlanesIfThereAreAny) {
+  OdometryResult result = Result();
+  MapPlane wall;
+  wall.plane = Plane({0.0, 0.0, -1.0}, 2.0);
+  wall.extent = {{0.0, 0.0, 2.0}, {0.0, 1.0, 2.0}, {1.0, 1.0, 2.0}};
+  result.planes = {wall};
+  const std::string out = Path("out");
+  EXPECT_EQ(WriteResultFiles(out, result, {}), "");
+  EXPECT_THAT(ReadFile(out + "/planes.ply"), HasSubstr("element face 1\n"));
+  EXPECT_EQ(nlohmann::json::parse(ReadFile(out + "/summary.json"))["map"]["planes"], 1);
+  EXPECT_THAT(ReadFile(out + "/report.html"), HasSubstr("\"planes\":{"));
+  RemoveResultFiles(out);
+  EXPECT_FALSE(std::filesystem::exists(out + "/planes.ply"));
+}
+
 TEST_F(ResultFilesTest, ReportsAFileInPlaceOfTheFolder) {
   WriteText("out", "");
   EXPECT_THAT(MessageOf([&] { static_cast<void>(WriteResultFiles(Path("out"), Result(), {})); }),

@@ -51,6 +51,19 @@ TEST(TrackedFeatures, AreDistortedAsTheImage) {
   EXPECT_LT(pixel.y(), 48.0F);
 }
 
+TEST(ViewedMap, ContainsPlanesWithTheirAxes) {
+  TrackedScene scene;
+  const Eigen::Matrix3d axes = scene.map.axes->world_from_axes.toRotationMatrix();
+  const PlaneExtent extent = {{0.0, 0.0, 2.0}, {0.0, 1.0, 2.0}, {1.0, 1.0, 2.0}};
+  scene.map.planes.planes = {{1, Plane(-axes.col(1), 2.0), extent},
+                             {2, Plane((axes.col(0) + axes.col(1)).normalized(), 2.0), extent}};
+  const ReportMap map = ViewedMap(scene.map);
+  ASSERT_EQ(map.planes.size(), 2u);
+  EXPECT_EQ(map.planes[0].axis, 1);
+  EXPECT_EQ(map.planes[0].extent, extent);
+  EXPECT_EQ(map.planes[1].axis, -1);
+}
+
 TEST(ViewedMap, ContainsAllLandmarksAndAxes) {
   const TrackedScene scene;
   const ReportMap map = ViewedMap(scene.map);

@@ -17,6 +17,11 @@ class BlobError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Throws BlobError with `problem` unless it holds.
+inline void Require(bool holds, const char* problem) {
+  if (!holds) throw BlobError(problem);
+}
+
 /// Writes numbers into a blob of a map, least significant byte first (docs/map_file.md).
 class BlobWriter {
  public:

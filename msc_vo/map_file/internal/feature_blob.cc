@@ -65,10 +65,6 @@ void Put(const LineFeature& line, BlobWriter* blob) {
   blob->Bytes(line.descriptor);
 }
 
-void Require(bool holds, const char* problem) {
-  if (!holds) throw BlobError(problem);
-}
-
 double GetSigma(BlobReader* blob) {
   const double sigma = blob->F16();
   Require(sigma > 0.0, "a sigma that is not positive");

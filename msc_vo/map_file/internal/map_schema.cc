@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 namespace msc_vo {
 
@@ -15,47 +16,69 @@ constexpr int64_t kApplicationId = 0x4d534356;  // "MSCV"
 // Without an index or a view of its own: every query is by the id.
 constexpr struct {
   const char* name;
+  int first_version, last_version;
   const char* sql;
 } kTables[] = {
-    {"map",
+    {"map", 1, kMapFileVersion,
      "CREATE TABLE map (id INTEGER PRIMARY KEY, next_keyframe INTEGER NOT NULL, next_landmark "
      "INTEGER NOT NULL, program TEXT NOT NULL, checksum INTEGER NOT NULL)"},
-    {"session",
+    {"session", 1, kMapFileVersion,
      "CREATE TABLE session (id INTEGER PRIMARY KEY, first_keyframe INTEGER NOT NULL, name TEXT NOT "
      "NULL, checksum INTEGER NOT NULL)"},
-    {"calibration",
+    {"calibration", 1, kMapFileVersion,
      "CREATE TABLE calibration (id INTEGER PRIMARY KEY, width INTEGER NOT NULL, height INTEGER NOT "
      "NULL, fx REAL NOT NULL, fy REAL NOT NULL, cx REAL NOT NULL, cy REAL NOT NULL, lens TEXT, "
      "coefficients BLOB, recorded BLOB, registration BLOB, checksum INTEGER NOT NULL)"},
-    {"submap",
+    {"submap", 1, 1,
      "CREATE TABLE submap (id INTEGER PRIMARY KEY, qx REAL, qy REAL, qz REAL, qw REAL, sigma REAL, "
      "deviation REAL, point_depth_noise REAL NOT NULL, line_pixel_noise REAL NOT NULL, "
      "line_depth_noise REAL NOT NULL, checksum INTEGER NOT NULL)"},
-    {"keyframe",
+    {"submap", 2, kMapFileVersion,
+     "CREATE TABLE submap (id INTEGER PRIMARY KEY, qx REAL, qy REAL, qz REAL, qw REAL, sigma REAL, "
+     "deviation REAL, point_depth_noise REAL NOT NULL, line_pixel_noise REAL NOT NULL, "
+     "line_depth_noise REAL NOT NULL, plane_noise REAL NOT NULL, checksum INTEGER NOT NULL)"},
+    {"keyframe", 1, kMapFileVersion,
      "CREATE TABLE keyframe (id INTEGER PRIMARY KEY, submap INTEGER NOT NULL, qx REAL NOT NULL, qy "
      "REAL NOT NULL, qz REAL NOT NULL, qw REAL NOT NULL, tx REAL NOT NULL, ty REAL NOT NULL, tz "
      "REAL NOT NULL, checksum INTEGER NOT NULL)"},
-    {"features",
+    {"features", 1, kMapFileVersion,
      "CREATE TABLE features (keyframe INTEGER PRIMARY KEY, frame INTEGER NOT NULL, timestamp REAL "
      "NOT NULL, calibration INTEGER NOT NULL, points BLOB NOT NULL, point_landmarks BLOB NOT NULL, "
      "lines BLOB NOT NULL, line_landmarks BLOB NOT NULL, depth_ranges BLOB NOT NULL, step BLOB "
      "NOT NULL, checksum INTEGER NOT NULL)"},
-    {"point",
+    {"point", 1, kMapFileVersion,
      "CREATE TABLE point (id INTEGER PRIMARY KEY, submap INTEGER NOT NULL, first_keyframe INTEGER "
      "NOT NULL, x INTEGER NOT NULL, y INTEGER NOT NULL, z INTEGER NOT NULL, visible INTEGER NOT "
      "NULL, found INTEGER NOT NULL, noise REAL NOT NULL, checksum INTEGER NOT NULL)"},
-    {"line",
+    {"line", 1, kMapFileVersion,
      "CREATE TABLE line (id INTEGER PRIMARY KEY, submap INTEGER NOT NULL, first_keyframe INTEGER "
      "NOT NULL, start_x INTEGER NOT NULL, start_y INTEGER NOT NULL, start_z INTEGER NOT NULL, "
      "end_x INTEGER NOT NULL, end_y INTEGER NOT NULL, end_z INTEGER NOT NULL, depth_offset INTEGER "
      "NOT NULL, visible INTEGER NOT NULL, found INTEGER NOT NULL, noise REAL NOT NULL, checksum "
      "INTEGER NOT NULL)"},
-    {"loop",
+    {"plane_features", 2, kMapFileVersion,
+     "CREATE TABLE plane_features (keyframe INTEGER PRIMARY KEY, planes BLOB NOT NULL, checksum "
+     "INTEGER NOT NULL)"},
+    {"plane", 2, kMapFileVersion,
+     "CREATE TABLE plane (id INTEGER PRIMARY KEY, submap INTEGER NOT NULL, host INTEGER NOT NULL, "
+     "nx REAL NOT NULL, ny REAL NOT NULL, nz REAL NOT NULL, d REAL NOT NULL, extent BLOB NOT NULL, "
+     "observations BLOB NOT NULL, checksum INTEGER NOT NULL)"},
+    {"loop", 1, kMapFileVersion,
      "CREATE TABLE loop (id INTEGER PRIMARY KEY, from_keyframe INTEGER NOT NULL, to_keyframe "
      "INTEGER NOT NULL, qx REAL NOT NULL, qy REAL NOT NULL, qz REAL NOT NULL, qw REAL NOT NULL, tx "
      "REAL NOT NULL, ty REAL NOT NULL, tz REAL NOT NULL, covariance BLOB NOT NULL, checksum "
      "INTEGER NOT NULL)"},
 };
+
+using Table = std::remove_reference_t<decltype(kTables[0])>;
+
+bool IsOf(const Table& table, int64_t version) {
+  return version >= table.first_version && version <= table.last_version;
+}
+
+void SetVersion(const SqliteDatabase& database) {
+  database.Execute("PRAGMA user_version = " + std::to_string(kMapFileVersion));
+}
 
 [[noreturn]] void Fail(const SqliteDatabase& database, const std::string& problem) {
   throw std::runtime_error(database.path() + ": " + problem);
@@ -73,8 +96,28 @@ bool IsEmptyDatabase(const SqliteDatabase& database) {
 
 void CreateSchema(const SqliteDatabase& database) {
   database.Execute("PRAGMA application_id = " + std::to_string(kApplicationId));
-  database.Execute("PRAGMA user_version = " + std::to_string(kMapFileVersion));
-  for (const auto& table : kTables) database.Execute(table.sql);
+  SetVersion(database);
+  for (const Table& table : kTables) {
+    if (IsOf(table, kMapFileVersion)) database.Execute(table.sql);
+  }
+}
+
+int SchemaVersion(const SqliteDatabase& database) {
+  return static_cast<int>(database.Integer("PRAGMA user_version"));
+}
+
+void UpgradeSchema(const SqliteDatabase& database) {
+  const int version = SchemaVersion(database);
+  if (version == kMapFileVersion) return;
+  for (const Table& table : kTables) {
+    if (IsOf(table, version) && !IsOf(table, kMapFileVersion)) {
+      database.Execute(std::string("DROP TABLE ") + table.name);
+    }
+  }
+  for (const Table& table : kTables) {
+    if (!IsOf(table, version) && IsOf(table, kMapFileVersion)) database.Execute(table.sql);
+  }
+  SetVersion(database);
 }
 
 void CheckSchema(const SqliteDatabase& database) {
@@ -93,7 +136,8 @@ void CheckSchema(const SqliteDatabase& database) {
   constexpr char kFix[] = "); restore a copy, or record the map again";
   if (version < 1) Fail(database, "is damaged (its version is not valid" + std::string(kFix));
   int64_t num_tables = 0;
-  for (const auto& table : kTables) {
+  for (const Table& table : kTables) {
+    if (!IsOf(table, version)) continue;
     SqliteStatement find = database.Prepare("SELECT sql FROM sqlite_master WHERE name = ?");
     find.BindText(0, table.name);
     if (!find.Step() || find.Bytes(0) != table.sql) {

@@ -8,13 +8,20 @@
 namespace msc_vo {
 
 /// Version of the tables, docs/map_file.md.
-constexpr int kMapFileVersion = 1;
+constexpr int kMapFileVersion = 2;
 
 /// Whether the file has no tables at all: it is new, or a run was killed before it wrote anything.
 bool IsEmptyDatabase(const SqliteDatabase& database);
 
 /// Makes the tables in an empty file.
 void CreateSchema(const SqliteDatabase& database);
+
+/// The version of a map.
+int SchemaVersion(const SqliteDatabase& database);
+
+/// Changes the tables of a map of an older version to those of this one. Tables that every write
+/// replaces are left empty if their columns change.
+void UpgradeSchema(const SqliteDatabase& database);
 
 /// Throws std::runtime_error unless the file is a map of a version that this program reads.
 void CheckSchema(const SqliteDatabase& database);

@@ -36,6 +36,13 @@ void RowChecksum::AddBytes(char kind, std::string_view bytes) {
   for (const char byte : bytes) AddByte(static_cast<uint8_t>(byte));
 }
 
+SqliteStatement PrepareUpsert(const SqliteDatabase& database, const std::string& table,
+                              int num_columns) {
+  std::string sql = "INSERT OR REPLACE INTO " + table + " VALUES (?";
+  for (int i = 1; i < num_columns; ++i) sql += ", ?";
+  return database.Prepare(sql + ")");
+}
+
 RowWriter& RowWriter::Null() {
   checksum_.AddNull();
   statement_->BindNull(column_++);

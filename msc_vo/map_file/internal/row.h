@@ -30,6 +30,11 @@ class RowChecksum {
   uint32_t hash_ = 0x811c9dc5;
 };
 
+/// Prepares the insertion of a row by RowWriter, which replaces the one with the same key.
+/// `num_columns` counts the checksum.
+SqliteStatement PrepareUpsert(const SqliteDatabase& database, const std::string& table,
+                              int num_columns);
+
 /// Binds the values of a row from left to right, and a checksum of them as the last one.
 class RowWriter {
  public:

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -12,6 +13,8 @@
 #include "msc_vo/map/map_validation.h"
 #include "msc_vo/map_file/internal/blob.h"
 #include "msc_vo/map_file/internal/feature_blob.h"
+#include "msc_vo/map_file/internal/map_schema.h"
+#include "msc_vo/map_file/internal/plane_rows.h"
 #include "msc_vo/map_file/internal/row.h"
 
 namespace msc_vo {
@@ -22,6 +25,7 @@ namespace {
 // hundred landmarks for each.
 constexpr int64_t kMaxKeyframes = int64_t{1} << 26;
 constexpr int64_t kMaxLandmarks = int64_t{1} << 33;
+constexpr int kFirstVersionWithPlanes = 2;
 
 // An observation as the features of a keyframe name it.
 struct NamedObservation {
@@ -59,7 +63,9 @@ class TableReader {
     ReadSessions();
     ReadSubMaps();
     calibrations_->Read(database_);
+    if (version_ >= kFirstVersionWithPlanes) planes_ = ReadPlaneFeatures(database_);
     ReadKeyframes();
+    if (version_ >= kFirstVersionWithPlanes) ReadPlanes(database_, &contents_);
     ForEachLandmarkKind([&](auto kind) { ReadLandmarks<typename decltype(kind)::Landmark>(); });
     ReadLoops();
     for (SavedSubMap& submap : contents_.submaps) {
@@ -103,6 +109,8 @@ class TableReader {
   LandmarkId next_landmark_ = 0;
   PerKind<std::vector<NamedObservation>> observations_;
   PerKind<size_t> num_used_;  // of the observations, by the landmarks that have been read
+  const int version_ = SchemaVersion(database_);
+  std::map<KeyframeId, std::vector<PlaneFeature>> planes_;  // of keyframes that are yet to be read
 };
 
 void TableReader::ReadIds() {
@@ -162,7 +170,9 @@ void TableReader::ReadSubMaps() {
     }
     submap.noise_scale = {row.Real(), row.Real(), row.Real()};
     const NoiseScale& noise = submap.noise_scale;
-    if (!(noise.point_depth > 0.0 && noise.line_pixel > 0.0 && noise.line_depth > 0.0)) {
+    if (version_ >= kFirstVersionWithPlanes) submap.planes.noise = row.Real();
+    if (!(noise.point_depth > 0.0 && noise.line_pixel > 0.0 && noise.line_depth > 0.0 &&
+          submap.planes.noise > 0.0)) {
       row.Fail("its noise is not positive");
     }
     row.Finish();
@@ -179,7 +189,7 @@ void TableReader::ReadKeyframes() {
     RowReader features_row(features, database_.path(), "features");
     ReadKeyframe(&row, &features_row);
   }
-  if (features.Step()) Fail("it has features without a keyframe");
+  if (features.Step() || !planes_.empty()) Fail("it has features without a keyframe");
   ForEachLandmarkKind([&](auto kind) {
     auto& observations = observations_.Of<typename decltype(kind)::Landmark>();
     std::sort(observations.begin(), observations.end());
@@ -215,6 +225,11 @@ std::shared_ptr<const Frame> TableReader::ReadFrame(KeyframeId id, RowReader* ro
   ReadFeatures<LineLandmark>(id, row, &*frame);
   frame->depth_ranges = DecodeDepthRanges(row->Blob());
   frame->grid = FeatureGrid(frame->camera, frame->points);
+  const auto planes = planes_.find(id);
+  if (planes != planes_.end()) {
+    frame->planes = std::move(planes->second);
+    planes_.erase(planes);
+  }
   return frame;
 }
 

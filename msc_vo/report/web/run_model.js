@@ -52,6 +52,8 @@ class RunModel extends EventTarget {
     this.map = {
       lines: new Float32Array(0),
       axes: new Uint8Array(0),
+      planes: new Float32Array(0),
+      planeAxes: new Uint8Array(0),
       points: new Float32Array(0),
       sessions: []
     };
@@ -120,6 +122,8 @@ class RunModel extends EventTarget {
     this.map = {
       lines: decodeArray(Float32Array, map.lines),   // start and end, metres
       axes: decodeArray(Uint8Array, map.line_axes),  // 0, 1, 2; 3: no axis
+      planes: decodeArray(Float32Array, map.planes && map.planes.triangles),  // three corners
+      planeAxes: decodeArray(Uint8Array, map.planes && map.planes.axes),      // of each triangle
       points: decodeArray(Float32Array, map.points),
       sessions: (map.sessions || []).map(decodeSession),
     };

@@ -113,6 +113,15 @@ function makeSurface(model) {
   return mesh;
 }
 
+// Translucent plates, seen from both sides, that do not hide what is behind them.
+function makePlates() {
+  const mesh = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.MeshBasicMaterial({
+    vertexColors: true, transparent: true, opacity: 0.25, depthWrite: false, side: THREE.DoubleSide
+  }));
+  mesh.frustumCulled = false;
+  return mesh;
+}
+
 class SceneLayers {
   constructor(model, group) {
     this.model = model;
@@ -132,13 +141,15 @@ class SceneLayers {
             {size: 2, sizeAttenuation: false, transparent: true, opacity: 0.55}));
     this.points.frustumCulled = false;
     this.surface = makeSurface(model);
+    this.planes = makePlates();
     this.camera.matrixAutoUpdate = false;
     // Label, object; the first nine in order of the keys 1 to 9.
     this.all = [
       ["lines", this.lines], ["points", this.points], ["keyframes", this.keyframes],
       ["trajectory", this.trajectory], [model.truthName, this.truth], ["axes", this.axes],
       ["camera", this.camera], ["surface", this.surface], ["loops", this.loops],
-      ["before loops", this.odometry], ["earlier sessions", this.sessions], ["found", this.found]
+      ["before loops", this.odometry], ["earlier sessions", this.sessions], ["found", this.found],
+      ["planes", this.planes]
     ];
     this.hidden = new Set();
     for (const [, object] of this.all) group.add(object);
@@ -153,6 +164,7 @@ class SceneLayers {
     if (label === "found") return !this.model.hasPose(this.model.found);
     if (label === "axes") return !this.model.axes;
     if (label === "surface") return !this.model.surface;
+    if (label === "planes") return this.model.map.planes.length === 0;
     return false;
   }
 
@@ -167,7 +179,7 @@ class SceneLayers {
       object.visible = !this.hidden.has(label) && !this.isEmpty(label);
     }
     if (from_camera) {
-      for (const object of [this.camera, this.keyframes, this.surface, this.found]) {
+      for (const object of [this.camera, this.keyframes, this.surface, this.found, this.planes]) {
         object.visible = false;
       }
     }
@@ -187,6 +199,7 @@ class SceneLayers {
     this.points.geometry = new THREE.BufferGeometry();
     this.points.geometry.setAttribute("position", new THREE.BufferAttribute(model.map.points, 3));
     this.points.material.color.set(themeColor("faint"));
+    this.fillPlanes(colors);
     this.fillTrajectory();
     this.fillPath(this.truth, model.groundTruth, "ground-truth");
     this.fillPath(this.odometry, model.odometry, "odometry");
@@ -198,6 +211,21 @@ class SceneLayers {
     this.fillAxes(0.12 * scale, colors);
     const frustum = frustumSegments(model.info.camera, 0.07 * scale);
     this.camera.setSegments(frustum, uniformColors(frustum.length / 6, themeColor("ink")));
+  }
+
+  // Each plane in the color of the axis that its normal is parallel to, grey without one.
+  fillPlanes(axisColors) {
+    const {planes, planeAxes} = this.model.map;
+    const rgb = new Float32Array(planes.length);
+    const colors = [...axisColors.slice(0, 3), new THREE.Color(themeColor("faint"))];
+    planeAxes.forEach((axis, i) => {
+      const color = colors[Math.min(axis, 3)];
+      for (let k = 0; k < 9; k += 3) rgb.set([color.r, color.g, color.b], 9 * i + k);
+    });
+    this.planes.geometry.dispose();
+    this.planes.geometry = new THREE.BufferGeometry();
+    this.planes.geometry.setAttribute("position", new THREE.BufferAttribute(planes, 3));
+    this.planes.geometry.setAttribute("color", new THREE.BufferAttribute(rgb, 3));
   }
 
   fillPath(object, points, color) {

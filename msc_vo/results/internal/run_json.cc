@@ -124,7 +124,8 @@ Json MeasurementsToJson(const RunSummary& summary, const std::optional<Trajector
   json["loops"] = LoopsToJson(summary);
   json["map"] = {{"keyframes", summary.num_keyframes},
                  {"points", summary.num_points},
-                 {"lines", summary.num_lines}};
+                 {"lines", summary.num_lines},
+                 {"planes", summary.num_planes}};
   json["manhattan_axes"] = AxesToJson(summary);
   json["noise_scale"] = NoiseToJson(summary.noise_scale);
   json["readout_time"] = summary.readout_time;
