@@ -37,8 +37,8 @@ constexpr double kMinDepthRatio = 0.75;
 // region, in sigmas of the random part of the image: the rest is the roughness of real walls.
 constexpr double kMaxCellResidual = 2.0;
 constexpr double kMaxDifference = 3.0;
-// That random part, in lower quartiles of the residuals of the cells: a cell hides what is common to
-// its pixels.
+// That random part, in lower quartiles of the residuals of the cells: a cell hides what is common
+// to its pixels.
 constexpr double kNoiseOfQuartile = 2.0;
 // Walls are not flatter, nor sums of single precision more exact, 1/metres: 0.8 mm at 2 m.
 constexpr double kFlatness = 2e-4;

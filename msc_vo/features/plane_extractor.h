@@ -59,7 +59,7 @@ class PlaneExtractor {
   int cell_size_ = 0;  // pixels
   int step_ = 0;       // between the pixels that are used
   int columns_ = 0, rows_ = 0;
-  int pixels_per_cell_ = 0;        // that are used, and padding to whole vector registers
+  int pixels_per_cell_ = 0;  // that are used, and padding to whole vector registers
   // x / z and y / z of the pixels that are used, cell by cell, and the largest depth that is valid
   // there: 0 where the pixel does not belong to the undistorted image, and of padding.
   std::vector<float> rays_x_, rays_y_, max_depth_;

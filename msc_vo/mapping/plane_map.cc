@@ -51,12 +51,11 @@ double SquaredResidual(const PlaneFeature& feature, const Rigid3& cam_from_world
 
 }  // namespace
 
-void PlaneMap::AddKeyframe(const Map& map, KeyframeId keyframe,
-                           const PoseCovariance& covariance) {
+void PlaneMap::AddKeyframe(const Map& map, KeyframeId keyframe, const PoseCovariance& covariance) {
   const Keyframe& added = *map.FindKeyframe(keyframe);
   const std::vector<PlaneFeature>& features = added.frame->planes;
   if (features.empty()) return;
-  std::vector<PlaneMatch> matches = 
+  std::vector<PlaneMatch> matches =
       MatchPlanes(features, InWorld(map), added.cam_from_world, covariance);
   std::vector<bool> is_known(features.size(), false);
   for (const PlaneMatch& match : matches) is_known[match.feature] = true;

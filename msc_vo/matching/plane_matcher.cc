@@ -93,8 +93,8 @@ std::vector<PlaneMatch> MatchPlanes(const std::vector<PlaneFeature>& features, c
     double least = std::numeric_limits<double>::infinity();
     bool is_seen = false;
     for (const PlaneLandmark& landmark : map.planes) {
-      const double unlikelihood =
-          Unlikelihood(feature, cam_from_world * landmark.plane, map.noise, cam_from_world, covariance);
+      const double unlikelihood = Unlikelihood(feature, cam_from_world * landmark.plane, map.noise,
+                                               cam_from_world, covariance);
       if (!std::isfinite(unlikelihood) || (is_seen && unlikelihood >= least)) continue;
       const bool touches = AreTouching(landmark.plane, landmark.extent, extent, 0.0);
       if (touches == is_seen ? unlikelihood >= least : is_seen) continue;

@@ -163,11 +163,12 @@ std::optional<TrackedFrame> Tracker::TrackByPlanes(const Input& input) {
   if (!has_pose) {
     if (!has_velocity) cam_from_world = input.last_from_world;
     covariance = ComposeCovariances(cam_from_world * input.last_from_world.Inverse(),
-                                    MotionCovariance(seconds, has_velocity),
-                                    input.last_from_world, last_covariance_);
+                                    MotionCovariance(seconds, has_velocity), input.last_from_world,
+                                    last_covariance_);
   }
   const MapPlanes& map = input.snapshot.planes;
-  const std::vector<PlaneMatch> matches = MatchPlanes(frame.planes, map, cam_from_world, covariance);
+  const std::vector<PlaneMatch> matches =
+      MatchPlanes(frame.planes, map, cam_from_world, covariance);
   if (matches.empty()) return std::nullopt;
   const bool is_determined = DetermineAPose(MatchedFeatures(frame.planes, matches));
   std::vector<PoseFactor> factors = MakePlanePoseFactors(frame.planes, matches, map);
@@ -179,9 +180,9 @@ std::optional<TrackedFrame> Tracker::TrackByPlanes(const Input& input) {
   Input by_planes = input;
   PosePrediction& pose = by_planes.prediction;
   pose.cam_from_world = cam_from_world;
-  pose.by_factors = EstimateFramePose(options_.pose, frame, input.snapshot.map,
-                                      input.snapshot.noise_scale, factors, &pose.cam_from_world,
-                                      &none);
+  pose.by_factors =
+      EstimateFramePose(options_.pose, frame, input.snapshot.map, input.snapshot.noise_scale,
+                        factors, &pose.cam_from_world, &none);
   if (!pose.by_factors.usable) return std::nullopt;
   TrackedFrame tracked = BridgeWithPrediction(by_planes);
   tracked.planes = matches;
@@ -304,17 +305,23 @@ TrackedFrame Tracker::TrackLocalMap(const Input& input, const FramePose& initial
     return SelectLocalMap(map, *tracked.frame, initial.cam_from_world, initial.matches,
                           ReferenceOrNewest(map, last_.reference), options_.max_local_keyframes);
   });
-  tracked.planes =
-      MatchPlanes(tracked.frame->planes, input.snapshot.planes, initial.cam_from_world,
-                  kUnstatedError * kUnstatedError * initial.summary.covariance +
-                      CovarianceOfCamera(initial.cam_from_world, kLeastPoseError));
+  tracked.planes = MatchPlanes(tracked.frame->planes, input.snapshot.planes, initial.cam_from_world,
+                               kUnstatedError * kUnstatedError * initial.summary.covariance +
+                                   CovarianceOfCamera(initial.cam_from_world, kLeastPoseError));
   estimator->AddFactors(
       MakePlanePoseFactors(tracked.frame->planes, tracked.planes, input.snapshot.planes));
-  const std::optional<FramePose> refined =
+  std::optional<FramePose> refined =
       estimator->MatchAndEstimate(options_.pose, *tracked.frame, local, options_.local_map_radius,
                                   initial.cam_from_world, LandmarkInliers(initial.matches));
+  const bool is_known =
+      refined || DetermineAPose(MatchedFeatures(tracked.frame->planes, tracked.planes));
+  if (!refined && !tracked.planes.empty()) {
+    refined =
+        estimator->Estimate(options_.pose, *tracked.frame, initial.cam_from_world, initial.matches);
+  }
   const FramePose& pose = refined ? *refined : initial;
-  tracked.status = refined ? ClassifyStatus(options_, pose.summary) : TrackingStatus::kWeak;
+  tracked.status =
+      refined && is_known ? ClassifyStatus(options_, pose.summary) : TrackingStatus::kWeak;
   tracked.pose = WithDynamicObjects(pose.summary, initial.summary);
   tracked.matches = LandmarkInliers(pose.matches);
   tracked.visible = IdsOf(local);
