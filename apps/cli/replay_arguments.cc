@@ -32,13 +32,11 @@ void AddShortcuts(CLI::App* command, ReplayArguments* arguments) {
   AddDepthSensorArgument(command, &arguments->configuration);
   command->add_flag("--no-points", arguments->no_points, "Use lines only");
   command->add_flag("--no-lines", arguments->no_lines, "Use points only");
-  CLI::Option* planes =
-      command->add_flag("--planes", arguments->planes, "Use planes of the depth images, too");
-  command->add_flag("--no-planes", arguments->no_planes, "No planes")->excludes(planes);
   command->add_flag("--no-parallel", arguments->no_parallel, "No pairs of parallel map lines");
   command->add_flag("--no-perpendicular", arguments->no_perpendicular,
                     "No pairs of perpendicular map lines");
   command->add_flag("--no-manhattan", arguments->no_manhattan, "No Manhattan axes");
+  command->add_flag("--no-planes", arguments->no_planes, "No planes of the depth images");
   command->add_flag("--no-loops", arguments->no_loops,
                     "Do not correct the map when the camera returns to a place");
   command->add_flag("--realtime", arguments->realtime,
@@ -151,7 +149,6 @@ ConfigurationArguments WithShortcuts(const ReplayArguments& arguments) {
   if (!arguments.lines.empty()) settings.push_back("features.lines.detector=" + arguments.lines);
   if (arguments.no_points) settings.push_back("use_points=false");
   if (arguments.no_lines) settings.push_back("use_lines=false");
-  if (arguments.planes) settings.push_back("use_planes=true");
   if (arguments.no_planes) settings.push_back("use_planes=false");
   if (arguments.no_parallel) settings.push_back("mapping.pairs.parallel=false");
   if (arguments.no_perpendicular) settings.push_back("mapping.pairs.perpendicular=false");

@@ -34,7 +34,6 @@ struct ReplayArguments {
   std::string mode;
   std::string lines;
   bool no_points = false;
-  bool planes = false;
   bool no_planes = false;
   bool no_lines = false;
   bool no_parallel = false;

@@ -29,7 +29,7 @@ struct FrameBuilderOptions {
   LineDepthMethod line_depth = LineDepthMethod::kRobustFit;
   double min_depth = 0.2;  ///< metres; depth outside [min_depth, max_depth] is invalid
   double max_depth = 10.0;
-  bool extract_planes = false;
+  bool extract_planes = true;
 
   bool IsValid(std::string* error) const;
 };

@@ -48,7 +48,7 @@ constexpr int kTrimRounds = 3;
 constexpr double kCellsOfOneError = 4.0;
 // Error that all cells of a plane have in common, in sigmas of the random part.
 constexpr double kCommonPart = 0.5;
-// Pixels that are summed at once.
+// Cells of a row that are summed at once.
 constexpr int kLanes = 8;
 using Lanes = Eigen::Array<float, kLanes, 1>;
 
@@ -120,19 +120,18 @@ void PlaneExtractor::ComputeRays(const LensDistortion& distortion) {
                     : Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
   };
   const int per_side = cell_size_ / step_;
-  pixels_per_cell_ = (per_side * per_side + kLanes - 1) / kLanes * kLanes;
-  const size_t num_pixels = cells_.size() * pixels_per_cell_;
-  rays_x_.assign(num_pixels, 0.0f);
-  rays_y_.assign(num_pixels, 0.0f);
-  max_depth_.assign(num_pixels, 0.0f);
-  cell_depth_.assign(pixels_per_cell_, 0.0f);
+  groups_ = (columns_ + kLanes - 1) / kLanes;
+  const size_t size = static_cast<size_t>(rows_) * groups_ * per_side * per_side * kLanes;
+  rays_x_.assign(size, 0.0f);
+  rays_y_.assign(size, 0.0f);
+  max_depth_.assign(size, 0.0f);
   for (int cell = 0; cell < columns_ * rows_; ++cell) {
+    const int column = cell % columns_, row = cell / columns_;
     for (int i = 0; i < per_side * per_side; ++i) {
-      const int x = (cell % columns_) * cell_size_ + (i % per_side) * step_;
-      const int y = (cell / columns_) * cell_size_ + (i / per_side) * step_;
-      const Vector2d ray = ray_of({x, y});
+      const Vector2d ray = ray_of({column * cell_size_ + (i % per_side) * step_,
+                                   row * cell_size_ + (i / per_side) * step_});
       if (!ray.allFinite()) continue;
-      const size_t index = static_cast<size_t>(cell) * pixels_per_cell_ + i;
+      const size_t index = FirstRay(row, column / kLanes) + i * kLanes + column % kLanes;
       rays_x_[index] = static_cast<float>(ray.x());
       rays_y_[index] = static_cast<float>(ray.y());
       max_depth_[index] = static_cast<float>(options_.max_depth);
@@ -196,55 +195,66 @@ double PlaneExtractor::NoiseOfCells() const {
   return std::min(std::max(kNoiseOfQuartile * *quartile, kFlatness), options_.inverse_depth_noise);
 }
 
+// Index of the first ray of a group of cells.
+size_t PlaneExtractor::FirstRay(int row, int group) const {
+  const int per_side = cell_size_ / step_;
+  return (static_cast<size_t>(row) * groups_ + group) * per_side * per_side * kLanes;
+}
+
 void PlaneExtractor::FitCells(const cv::Mat& depth) {
   for (int row = 0; row < rows_; ++row) {
-    for (int column = 0; column < columns_; ++column) {
-      cells_[static_cast<size_t>(row) * columns_ + column] = FitCell(depth, column, row);
-    }
+    for (int group = 0; group < groups_; ++group) FitGroup(depth, row, group);
   }
 }
 
-PlaneExtractor::Cell PlaneExtractor::FitCell(const cv::Mat& depth, int column, int row) {
+// Each cell is summed pixel by pixel, in its lane.
+void PlaneExtractor::FitGroup(const cv::Mat& depth, int row, int group) {
   const int per_side = cell_size_ / step_;
-  float* gathered = cell_depth_.data();
-  for (int v = 0; v < per_side; ++v) {
-    const float* z = depth.ptr<float>(row * cell_size_ + v * step_) + column * cell_size_;
-    for (int u = 0; u < per_side; ++u, z += step_) *gathered++ = *z;
+  std::array<int, kLanes> first_pixels;  // of the cells in an image row
+  for (int k = 0; k < kLanes; ++k) {
+    first_pixels[k] = std::min(group * kLanes + k, columns_ - 1) * cell_size_;
   }
-  const size_t first = static_cast<size_t>(row * columns_ + column) * pixels_per_cell_;
   const auto nearest = static_cast<float>(options_.min_depth);
+  size_t ray = FirstRay(row, group);
   Lanes count = Lanes::Zero(), xx = count, xy = count, yy = count, x = count, y = count;
   Lanes xw = count, yw = count, w = count, ww = count;
-  for (int i = 0; i < pixels_per_cell_; i += kLanes) {
-    Lanes is_valid, inverse_depth;
-    for (int k = 0; k < kLanes; ++k) {
-      const float z = cell_depth_[i + k];
-      const bool valid = (z >= nearest) & (z <= max_depth_[first + i + k]);
-      is_valid[k] = valid ? 1.0f : 0.0f;
-      inverse_depth[k] = is_valid[k] / (valid ? z : 1.0f);
+  for (int v = 0; v < per_side; ++v) {
+    const float* image_row = depth.ptr<float>(row * cell_size_ + v * step_);
+    for (int u = 0; u < per_side; ++u, ray += kLanes) {
+      Lanes is_valid, inverse_depth;
+      for (int k = 0; k < kLanes; ++k) {
+        const float z = image_row[first_pixels[k] + u * step_];
+        const bool valid = (z >= nearest) & (z <= max_depth_[ray + k]);
+        is_valid[k] = valid ? 1.0f : 0.0f;
+        inverse_depth[k] = is_valid[k] / (valid ? z : 1.0f);
+      }
+      const Eigen::Map<const Lanes> ray_x(&rays_x_[ray]), ray_y(&rays_y_[ray]);
+      const Lanes valid_x = is_valid * ray_x, valid_y = is_valid * ray_y;
+      count += is_valid;
+      x += valid_x;
+      y += valid_y;
+      xx += valid_x * ray_x;
+      xy += valid_x * ray_y;
+      yy += valid_y * ray_y;
+      w += inverse_depth;
+      xw += inverse_depth * ray_x;
+      yw += inverse_depth * ray_y;
+      ww += inverse_depth * inverse_depth;
     }
-    const Eigen::Map<const Lanes> ray_x(&rays_x_[first + i]), ray_y(&rays_y_[first + i]);
-    const Lanes valid_x = is_valid * ray_x, valid_y = is_valid * ray_y;
-    count += is_valid;
-    x += valid_x;
-    y += valid_y;
-    xx += valid_x * ray_x;
-    xy += valid_x * ray_y;
-    yy += valid_y * ray_y;
-    w += inverse_depth;
-    xw += inverse_depth * ray_x;
-    yw += inverse_depth * ray_y;
-    ww += inverse_depth * inverse_depth;
   }
-  Cell cell;
-  cell.count = static_cast<int>(count.sum());
-  if (cell.count < kMinDepthRatio * per_side * per_side) return Cell();
-  const double n = cell.count, sum_xy = xy.sum(), sum_x = x.sum(), sum_y = y.sum();
-  cell.square_rays << xx.sum(), sum_xy, sum_x, sum_xy, yy.sum(), sum_y, sum_x, sum_y, n;
-  cell.rays_times_depth << xw.sum(), yw.sum(), w.sum();
-  cell.square_depth = ww.sum();
-  cell.Fit();
-  return cell;
+  for (int k = 0; k < std::min(kLanes, columns_ - group * kLanes); ++k) {
+    Cell cell;
+    cell.count = static_cast<int>(count[k]);
+    if (cell.count >= kMinDepthRatio * per_side * per_side) {
+      cell.square_rays << xx[k], xy[k], x[k], xy[k], yy[k], y[k], x[k], y[k], count[k];
+      cell.rays_times_depth << xw[k], yw[k], w[k];
+      cell.square_depth = ww[k];
+      cell.Fit();
+    } else {
+      cell = Cell();
+    }
+    cells_[static_cast<size_t>(row) * columns_ + group * kLanes + k] = cell;
+  }
 }
 
 // Whether the plane of the region explains the depths of the cell.

@@ -48,7 +48,8 @@ class PlaneExtractor {
   void ComputeRays(const LensDistortion& distortion);
   double NoiseOfCells() const;
   void FitCells(const cv::Mat& depth);
-  Cell FitCell(const cv::Mat& depth, int column, int row);
+  void FitGroup(const cv::Mat& depth, int row, int group);
+  size_t FirstRay(int row, int group) const;
   std::vector<int> Grow(int seed, Cell* region);
   bool LiesOn(const Cell& cell, const Eigen::Vector3d& inverse_depth) const;
   PlaneFeature MakeFeature(const Cell& region, const std::vector<int>& cells) const;
@@ -59,14 +60,14 @@ class PlaneExtractor {
   int cell_size_ = 0;  // pixels
   int step_ = 0;       // between the pixels that are used
   int columns_ = 0, rows_ = 0;
-  int pixels_per_cell_ = 0;  // that are used, and padding to whole vector registers
-  // x / z and y / z of the pixels that are used, cell by cell, and the largest depth that is valid
-  // there: 0 where the pixel does not belong to the undistorted image, and of padding.
+  int groups_ = 0;  // of neighbouring cells in a row, which are fitted together
+  // x / z and y / z of the pixels that are used, and the largest depth that is valid there, 0 where
+  // the pixel does not belong to the undistorted image: for each group of cells and each pixel of a
+  // cell, one value per cell of the group.
   std::vector<float> rays_x_, rays_y_, max_depth_;
   // x / z and y / z of the corners of the cells; NaN if they do not belong to the undistorted
   // image.
   std::vector<Eigen::Vector2d> corners_;
-  std::vector<float> cell_depth_;  // of the pixels of a cell that are used
   std::vector<Cell> cells_;
   double noise_ = 0.0;  // random part of the inverse depths of the image, 1/metres
 };

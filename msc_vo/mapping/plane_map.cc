@@ -190,16 +190,24 @@ void PlaneMap::Learn(const Map& map, const WindowData& window) {
     if (known == planes_.end()) continue;
     known->second.in_host = map.CamFromWorld(known->second.host) * plane;
   }
-  std::vector<double> squares;
+  std::map<LandmarkId, std::vector<double>> of_planes;
   for (const WindowData::Keyframe& keyframe : window.keyframes) {
     const auto seen = keyframes_.find(keyframe.id);
     if (seen == keyframes_.end()) continue;
     for (const PlaneMatch& match : seen->second) {
       const auto plane = estimates.find(match.plane);
       if (plane == estimates.end()) continue;
-      squares.push_back(SquaredResidual(map.FindKeyframe(keyframe.id)->frame->planes[match.feature],
-                                        keyframe.cam_from_world, plane->second));
+      of_planes[match.plane].push_back(
+          SquaredResidual(map.FindKeyframe(keyframe.id)->frame->planes[match.feature],
+                          keyframe.cam_from_world, plane->second));
     }
+  }
+  // Each plane is fitted to its observations, which makes their residuals smaller.
+  std::vector<double> squares;
+  for (const auto& [id, of_plane] : of_planes) {
+    const auto count = static_cast<double>(of_plane.size());
+    if (count < 2) continue;
+    for (const double square : of_plane) squares.push_back(square * count / (count - 1.0));
   }
   if (squares.size() < kMinResiduals) return;
   const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);

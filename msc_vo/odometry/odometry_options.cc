@@ -21,6 +21,7 @@ void ApplyMode(OdometryOptions* options) {
     options->mapping.pairs.parallel = false;
     options->mapping.pairs.perpendicular = false;
     options->mapping.axes.enabled = false;
+    options->features.extract_planes = false;
   }
 }
 

@@ -28,15 +28,14 @@ void ListGeneral(OdometryOptions* options, OptionLister* list) {
   list->AddChoice("mode", &options->mode,
                   {ToString(Mode::kPlVo), ToString(Mode::kPlVoDepth), ToString(Mode::kMscVo)},
                   "Parts of the method. pl-vo: points and lines. pl-vo-depth: also robust depth of "
-                  "lines. msc-vo: also structural constraints.")
+                  "lines. msc-vo: also structural constraints, and planes.")
       .MakeBasic("Choose a simpler mode for comparison.");
   list->Add("use_points", &options->use_points, "Use point features.")
       .MakeBasic("Disable to estimate the motion from lines only.");
   list->Add("use_lines", &options->use_lines, "Use line features.")
       .MakeBasic("Disable to estimate the motion from points only.");
   list->Add("use_planes", &options->features.extract_planes,
-            "Use planes of the depth images as landmarks, where blank walls leave few points and "
-            "lines.");
+            "In mode msc-vo, use planes of the depth images as landmarks.");
   list->Add("close_loops", &options->tracking.find_loops,
             "Recognise places that were left, and correct the map when the camera returns.");
   list->Add("align_depth", &options->align_depth,

@@ -146,13 +146,8 @@ TEST_F(SessionsTest, ExtendsTheMap) {
 // Two runs with planes over the same images, the second in the map of the first.
 class PlaneSessionsTest : public SessionsTest {
  protected:
-  static OdometryOptions WithPlanes() {
-    OdometryOptions options = Options();
-    options.features.extract_planes = true;
-    return options;
-  }
   static MapContents FirstMap() {
-    Odometry odometry(WithPlanes(), camera_, LensDistortion());
+    Odometry odometry(Options(), camera_, LensDistortion());
     for (const RgbdImage& image : *images_) odometry.Process(image);
     return *odometry.ShareMaps("first");
   }
@@ -193,7 +188,7 @@ TEST_F(PlaneSessionsTest, UseThePlanesOfTheMap) {
   ExpectValidPlanes(first.submaps[0]);
   const size_t num_first = first.submaps[0].planes.planes.size();
   EXPECT_GE(num_first, 4u);
-  Odometry odometry(WithPlanes(), camera_, LensDistortion());
+  Odometry odometry(Options(), camera_, LensDistortion());
   odometry.SetMap(std::move(first));
   for (int i = kFirst; i < kNumFrames; ++i) {
     RgbdImage image = (*images_)[i];
@@ -217,7 +212,7 @@ TEST_F(PlaneSessionsTest, MergedMapsShareTheirPlanes) {
   const size_t num_first = first.submaps[0].planes.planes.size();
   second.submaps[0].map.Transform(
       {Eigen::Quaterniond(Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitY())), {3.0, -1.0, 2.0}});
-  const MapMerge merge = MergeMaps(WithPlanes(), std::move(first), std::move(second));
+  const MapMerge merge = MergeMaps(Options(), std::move(first), std::move(second));
   ASSERT_EQ(merge.contents.submaps.size(), 1u);
   ExpectValidPlanes(merge.contents.submaps[0]);
   EXPECT_GE(NumShared(merge.contents.submaps[0], merge.contents.sessions[1].first_keyframe), 2);
