@@ -31,11 +31,7 @@ RgbdDecoder Open(const py::object& directory, const std::string& format, const s
   SequenceIndex index = OpenFolder(PathArgument(directory), format, PhoneOptions());
   Calibration calibration = ResolveCalibration(configuration.camera, camera, &index);
   index.clipped_depth = FindClippedDepth(index);
-  if (!mask.is_none()) {
-    index.masks = std::make_shared<ImageMasks>(
-        PathArgument(mask), mask_zero ? ImageMasks::LeftOut::kZero : ImageMasks::LeftOut::kNonZero,
-        index.entries);
-  }
+  index.masks = OpenMasks(mask.is_none() ? "" : PathArgument(mask), mask_zero, index);
   return {std::move(index), std::move(calibration)};
 }
 
