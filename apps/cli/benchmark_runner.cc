@@ -32,9 +32,10 @@ std::string MaskOf(const BenchmarkSequence& sequence, const std::string& mask) {
   if (mask.empty()) return "";
   const std::string path = (fs::path(sequence.directory) / mask).string();
   if (HasEntry(path)) return path;
-  throw std::runtime_error(path +
-                           ": does not exist; --mask of benchmark is a file or folder in the folder "
-                           "of each sequence, or the absolute path of one for all of them");
+  throw std::runtime_error(
+      path +
+      ": does not exist; --mask of benchmark is a file or folder in the folder "
+      "of each sequence, or the absolute path of one for all of them");
 }
 
 // Throws std::runtime_error if the sequence has no ground truth.

@@ -12,7 +12,8 @@
 namespace msc_vo {
 
 /// Writes a sequence folder in TUM layout image by image: rgb/, depth/, rgb.txt, depth.txt,
-/// associations.txt, camera.txt, and mask/ if there are masks. Whenever the program ends, the lists name only complete images.
+/// associations.txt, camera.txt, and mask/ if there are masks. Whenever the program ends, the lists
+/// name only complete images.
 class TumWriter {
  public:
   /// Creates the folder and writes camera.txt. `comment` is one line about the source. Throws

@@ -27,7 +27,7 @@ constexpr const char* kPose[] = {"odom_qx", "odom_qy", "odom_qz", "odom_qw",
 
 // Of result files.
 constexpr ColumnFixes kFixes = {"it was written by an earlier version; run the sequence again",
-                            "run the sequence again"};
+                                "run the sequence again"};
 
 RecordedReading ParseReading(const nlohmann::json& json) {
   RecordedReading reading;
