@@ -88,6 +88,8 @@ Benchmark Describe(const BenchmarkArguments& arguments, const std::vector<std::s
   benchmark.changed_options = ChangedOptions(configuration);
   benchmark.modes = modes;
   benchmark.max_frames = arguments.run.max_frames;
+  benchmark.mask = arguments.layout.mask;
+  benchmark.mask_zero = arguments.layout.mask_zero;
   return benchmark;
 }
 
@@ -253,6 +255,7 @@ Command AddBenchmarkCommand(CLI::App* app) {
                  "Keep the finished runs in the output folder and run the others")
       ->excludes("--merge");
   AddLayoutArguments(command, &arguments->layout);
+  AddMaskArguments(command, &arguments->layout);
   AddConfigurationArguments(command, &arguments->configuration);
   AddCameraFileArgument(command, &arguments->configuration);
   command->add_option("--modes", arguments->modes, "Comma-separated list; default: all modes")

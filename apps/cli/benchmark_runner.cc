@@ -27,6 +27,17 @@ namespace fs = std::filesystem;
 
 constexpr char kUnfinished[] = "the program was ended during this run";
 
+// The mask of a sequence: relative paths are those in its folder.
+std::string MaskOf(const BenchmarkSequence& sequence, const std::string& mask) {
+  if (mask.empty()) return "";
+  const std::string path = (fs::path(sequence.directory) / mask).string();
+  if (HasEntry(path)) return path;
+  throw std::runtime_error(
+      path +
+      ": does not exist; --mask of benchmark is a file or folder in the folder "
+      "of each sequence, or the absolute path of one for all of them");
+}
+
 // Throws std::runtime_error if the sequence has no ground truth.
 RgbdDecoder OpenWithGroundTruth(const SequenceArguments& sequence,
                                 const Configuration& configuration) {
@@ -151,6 +162,7 @@ void BenchmarkRunner::RunSequenceModes(const BenchmarkSequence& sequence) {
   try {
     SequenceArguments arguments = plan_.layout;
     arguments.directory = sequence.directory;
+    arguments.mask = MaskOf(sequence, plan_.layout.mask);
     if (!sequence.format.empty()) arguments.format = sequence.format;
     if (!sequence.camera.empty()) arguments.camera = sequence.camera;
     decoder.emplace(

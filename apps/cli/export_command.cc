@@ -26,6 +26,7 @@ void CheckOptions(const CLI::App& command, const RunExport& arguments) {
   refuse_but_for("--all-poses", !is_map);
   refuse_but_for("--binary", arguments.format == "colmap");
   refuse_but_for("--images", arguments.format == "mcap");
+  refuse_but_for("--map", arguments.format == "mcap");
   for (const char* option : {"--voxel", "--max-depth", "--min-observations", "--max-memory"}) {
     refuse_but_for(option, arguments.format == "ply");
   }
@@ -33,7 +34,7 @@ void CheckOptions(const CLI::App& command, const RunExport& arguments) {
 
 int Export(const CLI::App& command, RunExport arguments) {
   CheckOptions(command, arguments);
-  arguments.map = arguments.run;
+  if (IsMapFormat(arguments.format)) arguments.map = arguments.run;
   WriteExport(arguments);
   std::cout << "written to " << arguments.output << std::endl;
   return kExitSuccess;
@@ -68,6 +69,11 @@ Command AddExportCommand(CLI::App* app) {
                     "Also poses that are not estimated from the image, but predicted");
   command->add_flag("--binary", arguments->binary, "For colmap: the binary form");
   command->add_flag("--images", arguments->images, "For mcap: also the colour images");
+  command
+      ->add_option("--map", arguments->map,
+                   "For mcap: map of the run (replay --map), whose features are drawn into images "
+                   "of the keyframes")
+      ->type_name("FILE");
   AddFusionArguments(command, &arguments->fusion);
   command->footer(HelpFooter("msc_vo export out/my_sequence nerfstudio transforms.json"));
   return {command, [arguments, command] { return Export(*command, *arguments); }};

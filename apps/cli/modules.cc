@@ -4,40 +4,24 @@
 #include "apps/cli/modules.h"
 
 #include <filesystem>
-#include <stdexcept>
 #include <string>
+#include <system_error>
 
-#include <dlfcn.h>
+#include "apps/modules/module_function.h"
 
 namespace msc_vo {
 
 namespace {
 
-constexpr char kVideoModule[] = "msc_vo_video.so";
 constexpr char kInstallVideo[] =
     "install the package msc-vo completely, or libopencv-videoio-dev and build again";
 
-// A module in the build folder or where it is installed, both relative to the program; empty if
-// there is none.
-std::string FindModule(const std::string& file) {
-  std::error_code error;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  for (const char* folder : {".", MSC_VO_MODULE_FOLDER}) {
-    const std::filesystem::path path = program.parent_path() / folder / file;
-    if (std::filesystem::exists(path, error)) return path.string();
-  }
-  return "";
-}
-
-// Returns the factory function of a module.
+// Modules are in the build folder or where they are installed, both relative to the program.
 void* LoadFunction(const std::string& file, const char* function, const std::string& fix) {
-  const std::string path = FindModule(file);
-  if (path.empty()) throw std::runtime_error("the module " + file + " is not installed: " + fix);
-  void* const module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);  // stays loaded
-  if (module == nullptr) throw std::runtime_error(path + ": " + dlerror());
-  void* const make = dlsym(module, function);
-  if (make == nullptr) throw std::runtime_error(path + ": is not the module of this msc_vo");
-  return make;
+  std::error_code ignored;
+  const std::filesystem::path folder =
+      std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path();
+  return LoadModuleFunction({folder, folder / MSC_VO_MODULE_FOLDER}, file, function, fix);
 }
 
 }  // namespace

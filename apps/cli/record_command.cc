@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
@@ -58,7 +59,8 @@ void RecordSequence(const RecordArguments& arguments, const RgbdDecoder& decoder
     const SequenceEntry& entry = decoder.index().entries[i];
     try {
       const StoredRgbd images = decoder.ReadForExport(i);
-      writer->Add(entry.timestamp, entry.timestamp + entry.depth_delay, images.color, images.depth);
+      writer->Add(entry.timestamp, entry.timestamp + entry.depth_delay, images.color, images.depth,
+                  images.mask);
     } catch (const UnreadableImage& error) {
       if (recording->num_unreadable++ == 0) recording->first_unreadable = error.what();
     }
@@ -75,18 +77,27 @@ void RecordCamera(const RecordArguments& arguments, const RgbdDecoder& decoder,
   CameraImage image;
   while (!interrupt.IsInterrupted() && !IsFull(arguments, writer->num_pairs()) &&
          source.Next(&image, &recording->num_dropped)) {
+    const cv::Mat mask = decoder.index().masks ? decoder.Convert(image, 0).mask : cv::Mat();
     writer->Add(image.timestamp, image.timestamp + image.depth_delay, {"", image.color},
-                {"", image.depth});
+                {"", image.depth}, mask);
     progress.Update(writer->num_pairs(), "");
   }
   progress.Finish();
 }
 
+// The folder of the masks that were recorded; empty: none.
+std::string MaskFolder(const RecordArguments& arguments, const TumWriter& writer) {
+  if (arguments.sequence.mask.empty() || writer.num_pairs() == 0) return "";
+  return (std::filesystem::path(arguments.folder) / "mask").string();
+}
+
 void Print(const RecordArguments& arguments, const TumWriter& writer, const Recording& recording) {
+  const std::string masks = MaskFolder(arguments, writer);
   if (arguments.json) {
     const nlohmann::ordered_json json = {
         {"directory", arguments.folder},
         {"source", arguments.sequence.directory},
+        {"mask", masks.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(masks)},
         {"images", writer.num_pairs()},
         {"unreadable", recording.num_unreadable},
         {"dropped", recording.num_dropped},
@@ -94,6 +105,7 @@ void Print(const RecordArguments& arguments, const TumWriter& writer, const Reco
     std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << std::endl;
   } else {
     std::cout << writer.num_pairs() << " image pairs in " << arguments.folder << std::endl;
+    if (!masks.empty()) std::cout << "with masks; read it with --mask " << masks << std::endl;
   }
   if (recording.num_unreadable > 0) {
     PrintWarning(FormatText("%d images cannot be read and are left out; the first: ",
@@ -147,6 +159,7 @@ Command AddRecordCommand(CLI::App* app) {
   CLI::App* command = app->add_subcommand(
       "record", "Write a camera, a ROS bag or another sequence as a folder in TUM layout");
   AddSequenceArguments(command, &arguments->sequence)->required();
+  AddMaskArguments(command, &arguments->sequence);
   command->add_option("folder", arguments->folder, "Folder to write; must be empty or new")
       ->required();
   AddConfigurationArguments(command, &arguments->configuration);

@@ -72,8 +72,10 @@ std::vector<RunExport> PlanExports(const ReplayArguments& arguments, const RgbdD
     one.map = arguments.map.map;
     one.format = FormatOf(text);
     one.output = text.substr(text.find('=') + 1);
-    // The calibration is that of the results.
     const SequenceIndex& index = sequence.index();
+    // The images of a live camera are gone after the run.
+    if (one.format == "mcap" && index.camera) one.map.clear();
+    // The calibration is that of the results.
     if (one.format != "colmap" || (!index.container && !index.camera && !index.scale_color)) {
       one.sequence = arguments.sequence;
       one.sequence.camera.clear();

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "apps/cli/command_log.h"
+#include "apps/cli/exported_features.h"
 #include "apps/cli/exported_images.h"
 #include "apps/cli/exported_map.h"
 #include "apps/cli/modules.h"
@@ -21,6 +22,7 @@
 #include "msc_vo/exports/trajectory_export.h"
 #include "msc_vo/geometry/pose_covariance.h"
 #include "msc_vo/results/ply_file.h"
+#include "msc_vo/results/sequence_identity.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
 
@@ -93,6 +95,19 @@ void AddImages(const RunExport& arguments, const std::vector<TimedPose>& poses, 
   }
 }
 
+// Draws the features of the keyframes, if there is a map of the run.
+void AddFeatures(const RunExport& arguments, McapRun* run) {
+  if (arguments.map.empty()) return;
+  RgbdDecoder images = OpenExportedSequence(arguments);
+  const auto identity = ReadIdentity(arguments.run);  // the sequence may have moved since
+  const std::string sequence = identity ? identity->path : images.index().directory;
+  const auto features =
+      std::make_shared<const ExportedFeatures>(arguments.map, sequence, std::move(images));
+  std::vector<int64_t> times;
+  for (const McapFrame& frame : run->frames) times.push_back(frame.nanoseconds / 1000);
+  run->draw_features = [features, times](size_t i) { return features->Draw(times[i]); };
+}
+
 // Points, lines and planes, if they are in the world of the poses.
 void AddMap(const std::string& folder, int world, McapRun* run) {
   const RecordedRun recorded = ReadRecordedRun(folder);
@@ -135,6 +150,7 @@ void WriteMcap(const RunExport& arguments) {
   }
   AddMap(arguments.run, poses.front().world, &run);
   if (arguments.images) AddImages(arguments, poses, &run);
+  AddFeatures(arguments, &run);
   ExportMcap(run, arguments.output);
 }
 
@@ -186,6 +202,7 @@ void WriteExport(const RunExport& arguments) {
   for (const char* name : {"frames.csv", "lines.ply", "map.ply", "sequence.json", "summary.json"}) {
     inputs.push_back(FileOf(arguments.run, name));
   }
+  if (!arguments.map.empty()) inputs.push_back(arguments.map);
   RefuseToOverwrite(inputs, arguments.output);
   if (arguments.format == "mcap") return WriteMcap(arguments);
   if (arguments.format == "ply") return WritePly(arguments);

@@ -16,7 +16,7 @@ namespace msc_vo {
 /// Results of a run in the format of another program.
 struct RunExport {
   std::string run;             ///< folder of results, or a trajectory
-  std::string map;             ///< map file, of which IsMapFormat() is made
+  std::string map;             ///< map file of the run; for mcap it may be empty
   std::string format;          ///< one of ExportFormats()
   std::string output;          ///< file; for colmap a folder
   SequenceArguments sequence;  ///< its directory is that of the results if empty

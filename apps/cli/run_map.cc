@@ -54,6 +54,10 @@ std::string NewSessionName(const std::string& sequence) {
   return sequence + FormatText(", %s.%03d UTC", text, static_cast<int>(milliseconds));
 }
 
+bool IsSessionOf(const std::string& name, const std::string& sequence) {
+  return name.substr(0, name.rfind(", ")) == sequence;
+}
+
 RunMap::RunMap(const MapArguments& arguments, const std::string& session, double interval,
                bool resumed)
     : arguments_(arguments),

@@ -28,6 +28,9 @@ void AddMapArguments(CLI::App* command, MapArguments* arguments);
 /// run has it.
 std::string NewSessionName(const std::string& sequence);
 
+/// Whether NewSessionName(sequence) may have returned a name.
+bool IsSessionOf(const std::string& name, const std::string& sequence);
+
 /// The map of earlier sessions that a run begins with, and the file that it is saved to while the
 /// run is in progress. The clock decides when it is saved, and affects nothing else.
 class RunMap {

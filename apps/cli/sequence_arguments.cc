@@ -4,7 +4,6 @@
 #include "apps/cli/sequence_arguments.h"
 
 #include <filesystem>
-#include <memory>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -44,19 +43,6 @@ SequenceIndex OpenSource(const SequenceArguments& arguments) {
   if (IsOni(source)) return OpenOniFile(source);
   const PhoneOptions options = {DepthConfidenceFromName(arguments.min_confidence), LoadVideoReader};
   return OpenFolder(source, arguments.format, options);
-}
-
-std::shared_ptr<const ImageMasks> OpenMasks(const SequenceArguments& arguments,
-                                            const SequenceIndex& index) {
-  if (arguments.mask.empty()) return nullptr;
-  if (index.camera && IsFolder(arguments.mask)) {
-    throw std::runtime_error(arguments.mask +
-                             ": images of a live camera have no masks; give one image for all");
-  }
-  return std::make_shared<ImageMasks>(
-      arguments.mask,
-      arguments.mask_zero ? ImageMasks::LeftOut::kZero : ImageMasks::LeftOut::kNonZero,
-      index.entries);
 }
 
 }  // namespace
@@ -115,7 +101,7 @@ RgbdDecoder OpenDecoder(const SequenceArguments& arguments, const Configuration&
   SequenceIndex index = OpenSource(arguments);
   Calibration calibration = ResolveCalibration(configuration.camera, arguments.camera, &index);
   index.clipped_depth = FindClippedDepth(index);
-  index.masks = OpenMasks(arguments, index);
+  index.masks = OpenMasks(arguments.mask, arguments.mask_zero, index);
   return {std::move(index), std::move(calibration)};
 }
 

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include <dlfcn.h>
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include "apps/modules/module_function.h"
 #include "apps/python/arrays.h"
 #include "apps/python/bindings.h"
+#include "apps/video/video_file.h"
 #include "msc_vo/config/options_file.h"
 #include "msc_vo/datasets/clipped_depth_search.h"
 #include "msc_vo/datasets/image_masks.h"
@@ -24,18 +28,26 @@ namespace py = pybind11;
 
 namespace {
 
+// The module for videos lies beside this one, whose libraries only recordings with a video need.
+std::unique_ptr<VideoReader> LoadVideoReader() {
+  Dl_info own = {};
+  dladdr(reinterpret_cast<void*>(&LoadVideoReader), &own);
+  const std::filesystem::path file = own.dli_fname == nullptr ? "" : own.dli_fname;
+  const auto make = reinterpret_cast<MakeVideoReaderOfModule>(
+      LoadModuleFunction({file.parent_path()}, kVideoModule, kMakeVideoReader,
+                         "install the Python package msc_vo completely"));
+  return std::unique_ptr<VideoReader>(make());
+}
+
 RgbdDecoder Open(const py::object& directory, const std::string& format, const std::string& camera,
                  const py::object& config, const py::object& mask, bool mask_zero) {
   Configuration configuration;
   if (!config.is_none()) ReadConfiguration(PathArgument(config), &configuration);
-  SequenceIndex index = OpenFolder(PathArgument(directory), format, PhoneOptions());
+  SequenceIndex index = OpenFolder(PathArgument(directory), format,
+                                   {PhoneOptions().least_confidence, LoadVideoReader});
   Calibration calibration = ResolveCalibration(configuration.camera, camera, &index);
   index.clipped_depth = FindClippedDepth(index);
-  if (!mask.is_none()) {
-    index.masks = std::make_shared<ImageMasks>(
-        PathArgument(mask), mask_zero ? ImageMasks::LeftOut::kZero : ImageMasks::LeftOut::kNonZero,
-        index.entries);
-  }
+  index.masks = OpenMasks(mask.is_none() ? "" : PathArgument(mask), mask_zero, index);
   return {std::move(index), std::move(calibration)};
 }
 

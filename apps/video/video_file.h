@@ -29,6 +29,7 @@ class VideoFile {
   virtual int CountImages(const std::string& path) const = 0;
 };
 
+inline constexpr char kVideoModule[] = "msc_vo_video.so";
 /// The function of the module that makes one; the caller owns the result.
 using MakeVideoFile = VideoFile* (*)();
 inline constexpr char kMakeVideoFile[] = "msc_vo_make_video_file";

@@ -101,4 +101,15 @@ cv::Mat ImageMasks::Read(const std::string& color_path, const ImageSize& size) c
                                              mask.cols, mask.rows, size.width, size.height));
 }
 
+std::shared_ptr<const ImageMasks> OpenMasks(const std::string& path, bool zero,
+                                            const SequenceIndex& index) {
+  if (path.empty()) return nullptr;
+  if (index.camera && IsFolder(path)) {
+    throw std::runtime_error(path +
+                             ": images of a live camera have no masks; give one image for all");
+  }
+  return std::make_shared<ImageMasks>(
+      path, zero ? ImageMasks::LeftOut::kZero : ImageMasks::LeftOut::kNonZero, index.entries);
+}
+
 }  // namespace msc_vo

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 namespace msc_vo {
 
 struct SequenceEntry;
+struct SequenceIndex;
 
 /// Masks of the colour images of a sequence: one image for all of them, or a folder with one for
 /// each. A mask belongs to the image of the same name up to the ending, or has the name of the
@@ -51,5 +53,10 @@ class ImageMasks {
   cv::Mat single_;                            // empty: a folder
   std::map<std::string, std::string> files_;  // of a folder, by their names without ending
 };
+
+/// The masks of a sequence; null if `path` is empty. `zero`: pixels that are zero are left out.
+/// Throws as ImageMasks() does, and if a live camera is given a folder.
+std::shared_ptr<const ImageMasks> OpenMasks(const std::string& path, bool zero,
+                                            const SequenceIndex& index);
 
 }  // namespace msc_vo

@@ -180,7 +180,7 @@ StoredRgbd RgbdDecoder::ReadForExport(int i) const {
   const SequenceEntry& entry = index_.entries.at(i);
   StoredRgbd stored = ReadStored(i);
   try {
-    DecodePair(i, stored);  // an image that cannot be decoded is not copied
+    stored.mask = DecodePair(i, stored).mask;  // an image that cannot be decoded is not copied
     if (index_.scale_color) {
       cv::Mat color =
           stored.color.bytes.empty()

@@ -34,6 +34,7 @@ class UnreadableImage : public std::runtime_error {
 struct StoredRgbd {
   StoredImage color;
   StoredImage depth;
+  cv::Mat mask = {};  ///< CV_8UC1, of the size of the colour image, not 0: left out; empty: none
 };
 
 /// Decodes the images of a sequence. Thread-safe: has no mutable state.
@@ -60,8 +61,8 @@ class RgbdDecoder {
   RgbdImage Decode(int i) const;
 
   /// Returns entry i for a copy of the sequence: as it is stored, unless the index says that colour
-  /// has to be scaled or that depth has other values than 0 for no measurement. Throws
-  /// UnreadableImage as Decode() does.
+  /// has to be scaled or that depth has other values than 0 for no measurement. Depth is whole
+  /// where the mask leaves it out. Throws UnreadableImage as Decode() does.
   StoredRgbd ReadForExport(int i) const;
 
   /// Decodes the depth image of entry i only, before registration: CV_16UC1, raw units, or

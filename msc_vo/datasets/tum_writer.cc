@@ -88,7 +88,7 @@ TumWriter::TumWriter(const std::string& folder, const Calibration& calibration,
 }
 
 void TumWriter::Add(double color_time, double depth_time, const StoredImage& color,
-                    const StoredImage& depth) {
+                    const StoredImage& depth, const cv::Mat& mask) {
   const std::string color_stamp = FormatText("%.6f", color_time);
   const std::string depth_stamp = FormatText("%.6f", depth_time);
   const std::string color_name = "rgb/" + color_stamp + ExtensionOf(color);
@@ -99,6 +99,11 @@ void TumWriter::Add(double color_time, double depth_time, const StoredImage& col
             color.bytes.empty() ? EncodePng(color.pixels, color_name) : color.bytes);
   WriteFile((fs::path(folder_) / depth_name).string(),
             depth.bytes.empty() ? EncodePng(raw, depth_name) : depth.bytes);
+  if (!mask.empty()) {
+    const std::string mask_name = "mask/" + color_stamp + ".png";
+    MakeFolder((fs::path(folder_) / "mask").string());
+    WriteFile((fs::path(folder_) / mask_name).string(), EncodePng(mask, mask_name));
+  }
   AppendLines(color_stamp + " " + color_name, depth_stamp + " " + depth_name);
   ++num_pairs_;
 }

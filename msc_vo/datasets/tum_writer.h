@@ -12,7 +12,8 @@
 namespace msc_vo {
 
 /// Writes a sequence folder in TUM layout image by image: rgb/, depth/, rgb.txt, depth.txt,
-/// associations.txt, camera.txt. Whenever the program ends, the lists name only complete images.
+/// associations.txt, camera.txt, and mask/ if there are masks. Whenever the program ends, the lists
+/// name only complete images.
 class TumWriter {
  public:
   /// Creates the folder and writes camera.txt. `comment` is one line about the source. Throws
@@ -23,9 +24,11 @@ class TumWriter {
   /// Writes a pair of images with their times in seconds, which must differ from those before.
   /// Encoded images are written as they are, pixels as PNG; depth in metres is converted to the
   /// depth scale of the calibration. Throws std::runtime_error naming the file, for instance
-  /// because the disk is full; the folder then holds the pairs before.
-  void Add(double color_time, double depth_time, const StoredImage& color,
-           const StoredImage& depth);
+  /// because the disk is full; the folder then holds the pairs before. `mask`: CV_8UC1, of the
+  /// size of the colour image, not 0: left out; empty: none. It is written with the name of the
+  /// colour image, as ImageMasks reads it.
+  void Add(double color_time, double depth_time, const StoredImage& color, const StoredImage& depth,
+           const cv::Mat& mask = {});
 
   int num_pairs() const { return num_pairs_; }
 

@@ -124,11 +124,12 @@ void WriteImage(const McapFrame& frame, const CameraIntrinsics& camera, RosBag* 
              FormatCameraInfo(header, camera));
 }
 
-}  // namespace
-
-void RequireMcapExport() {}
-
-namespace {
+// An image that shows features in every viewer, with or without their messages.
+void WriteFeatures(const McapFrame& frame, const std::string& jpeg, RosBag* bag) {
+  if (jpeg.empty()) return;
+  bag->Write("/msc_vo/features/compressed", "sensor_msgs/CompressedImage", frame.nanoseconds,
+             FormatCompressedImage({frame.nanoseconds, kOptical}, "jpeg", jpeg));
+}
 
 void WriteRun(const McapRun& run, const std::string& path) {
   RosBag bag(path);
@@ -137,12 +138,17 @@ void WriteRun(const McapRun& run, const std::string& path) {
   for (const McapFrame& frame : run.frames) {
     WritePoses(before, frame, &bag);
     if (!frame.image.empty()) WriteImage(frame, run.camera, &bag);
+    if (run.draw_features) {
+      WriteFeatures(frame, run.draw_features(static_cast<size_t>(&frame - &run.frames[0])), &bag);
+    }
     before = &frame;
   }
   bag.Finish();
 }
 
 }  // namespace
+
+void RequireMcapExport() {}
 
 void ExportMcap(const McapRun& run, const std::string& path) {
   const std::string part = path + ".part";

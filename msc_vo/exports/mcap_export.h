@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,6 +33,9 @@ struct McapRun {
   std::vector<ColoredEdge> lines;
   std::vector<ColoredPolygon> planes;
   CameraIntrinsics camera;  ///< of the images, if there are any
+  /// Returns a JPEG file of the image of frames[i] with its features, or nothing if that has none;
+  /// may be empty.
+  std::function<std::string(size_t i)> draw_features;
 };
 
 /// Writes a run as an MCAP file with messages of ROS 2:
@@ -46,6 +50,7 @@ struct McapRun {
 /// | /msc_vo/map_lines | visualization_msgs/MarkerArray | map; once |
 /// | /msc_vo/map_planes | visualization_msgs/MarkerArray | map; once, if there are planes |
 /// | /camera/color/image_raw/compressed | sensor_msgs/CompressedImage | camera_optical_frame |
+/// | /msc_vo/features/compressed | sensor_msgs/CompressedImage | camera_optical_frame |
 /// | /camera/color/camera_info | sensor_msgs/CameraInfo | camera_optical_frame |
 ///
 /// Throws std::runtime_error, naming the file, if it cannot be written, if an image is neither PNG

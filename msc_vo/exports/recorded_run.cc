@@ -3,7 +3,6 @@
 
 #include "msc_vo/exports/recorded_run.h"
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <stdexcept>
@@ -14,7 +13,7 @@
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/results/calibration_json.h"
 #include "msc_vo/text/files.h"
-#include "msc_vo/text/text_file.h"
+#include "msc_vo/text/named_columns.h"
 
 namespace msc_vo {
 
@@ -26,43 +25,9 @@ constexpr const char* kAxes[] = {"rx", "ry", "rz", "tx", "ty", "tz"};
 constexpr const char* kPose[] = {"odom_qx", "odom_qy", "odom_qz", "odom_qw",
                                  "odom_x",  "odom_y",  "odom_z"};
 
-// Of every damage of a result file.
-constexpr const char* kFix = "; run the sequence again";
-
-// Rows of a file with named columns.
-class Table {
- public:
-  explicit Table(const std::string& path) : lines_(ReadTextLines(path)) {
-    if (lines_.empty()) throw std::runtime_error(path + ":1: the file is empty");
-  }
-
-  size_t num_rows() const { return lines_.size() - 1; }
-  size_t Column(const std::string& name) const {
-    const std::vector<std::string>& names = lines_[0].fields;
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end()) {
-      lines_[0].Fail("no column '" + name + "': it was written by an earlier version" + kFix);
-    }
-    return static_cast<size_t>(found - names.begin());
-  }
-  double Number(size_t row, size_t column) const {
-    const TextLine& line = lines_[row + 1];
-    if (line.fields.size() != lines_[0].fields.size()) {
-      line.Fail(std::to_string(lines_[0].fields.size()) + " columns expected, found " +
-                std::to_string(line.fields.size()) + kFix);
-    }
-    const std::optional<double> number = ParseNumber(line.fields[column]);
-    if (!number || !std::isfinite(*number)) {
-      line.Fail("'" + line.fields[column] + "' in the column " + lines_[0].fields[column] +
-                " is no number" + kFix);
-    }
-    return *number;
-  }
-  const TextLine& Line(size_t row) const { return lines_[row + 1]; }
-
- private:
-  std::vector<TextLine> lines_;
-};
+// Of result files.
+constexpr ColumnFixes kFixes = {"it was written by an earlier version; run the sequence again",
+                                "run the sequence again"};
 
 RecordedReading ParseReading(const nlohmann::json& json) {
   RecordedReading reading;
@@ -75,20 +40,20 @@ RecordedReading ParseReading(const nlohmann::json& json) {
 }
 
 // The covariance of the pose of a row; none if the row states none.
-std::optional<PoseCovariance> ReadCovariance(const Table& table, size_t row,
+std::optional<PoseCovariance> ReadCovariance(const NamedColumns& table, size_t row,
                                              const std::vector<size_t>& sigmas,
                                              const size_t (&correlations)[6][6]) {
   PoseCovariance covariance;
   for (int i = 0; i < 6; ++i) {
     const double sigma = table.Number(row, sigmas[i]);
-    if (sigma < 0.0) table.Line(row).Fail(std::string(kSigmas[i]) + " is negative" + kFix);
+    if (sigma < 0.0) table.Fail(row, std::string(kSigmas[i]) + " is negative");
     covariance(i, i) = i < 3 ? DegreesToRadians(sigma) : sigma;
   }
   for (int i = 0; i < 6; ++i) {
     for (int j = i + 1; j < 6; ++j) {
       const double correlation = table.Number(row, correlations[i][j]);
       if (std::abs(correlation) > 1.0) {
-        table.Line(row).Fail(std::string("a correlation must be within [-1, 1]") + kFix);
+        table.Fail(row, "a correlation must be within [-1, 1]");
       }
       covariance(i, j) = covariance(j, i) = correlation * covariance(i, i) * covariance(j, j);
     }
@@ -102,7 +67,7 @@ std::optional<PoseCovariance> ReadCovariance(const Table& table, size_t row,
 int64_t Microseconds(double seconds) { return std::llround(1e6 * seconds); }
 
 std::map<int64_t, RecordedFrame> ReadFramesCsv(const std::string& path) {
-  const Table table(path);
+  const NamedColumns table(path, kFixes);
   const size_t time = table.Column("time");
   std::vector<size_t> sigmas, pose;
   for (const char* name : kSigmas) sigmas.push_back(table.Column(name));
@@ -119,12 +84,12 @@ std::map<int64_t, RecordedFrame> ReadFramesCsv(const std::string& path) {
     for (int i = 0; i < 7; ++i) frame.odom_from_cam.params[i] = table.Number(row, pose[i]);
     const double length = frame.odom_from_cam.rotation().norm();
     if (!(std::abs(length - 1.0) < 1e-3)) {
-      table.Line(row).Fail(std::string("the quaternion has no unit length") + kFix);
+      table.Fail(row, "the quaternion has no unit length");
     }
     frame.odom_from_cam.rotation().normalize();
     frame.covariance = ReadCovariance(table, row, sigmas, correlations);
     if (!frames.emplace(Microseconds(table.Number(row, time)), frame).second) {
-      table.Line(row).Fail(std::string("its time stands in a row before") + kFix);
+      table.Fail(row, "its time stands in a row before");
     }
   }
   return frames;

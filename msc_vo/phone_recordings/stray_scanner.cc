@@ -20,6 +20,7 @@
 #include "msc_vo/phone_recordings/phone_formats.h"
 #include "msc_vo/phone_recordings/phone_sequence.h"
 #include "msc_vo/text/format_text.h"
+#include "msc_vo/text/named_columns.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -44,61 +45,35 @@ struct OdometryRow {
   std::optional<PinholeCamera> camera;  // without its size
 };
 
-// The columns of odometry.csv by their names in its first line.
-class OdometryColumns {
- public:
-  explicit OdometryColumns(const TextLine& header) : num_columns_(header.fields.size()) {
-    for (size_t i = 0; i < num_columns_; ++i) columns_[Lowercase(Trimmed(header.fields[i]))] = i;
-    for (const char* name : {"timestamp", "frame", "x", "y", "z", "qx", "qy", "qz", "qw"}) {
-      if (columns_.count(name) > 0) continue;
-      header.Fail(std::string("no column '") + name +
-                  "'; the first line must name the columns timestamp, frame, x, y, z, qx, qy, qz, "
-                  "qw (older versions of Stray Scanner do not write the times: record again with a "
-                  "newer one)");
-    }
-  }
+constexpr ColumnFixes kFixes = {
+    "the first line must name the columns timestamp, frame, x, y, z, qx, qy, qz, qw (older "
+    "versions of Stray Scanner do not write the times: record again with a newer one)",
+    "correct the line, or copy the recording again"};
 
-  OdometryRow Read(const TextLine& line) const {
-    if (line.fields.size() != num_columns_) {
-      line.Fail(FormatText("expected %zu columns as in the first line, found %zu; correct the line",
-                           num_columns_, line.fields.size()));
-    }
-    const std::vector<double> values = ParseNumbers(line);
-    const auto at = [&](const char* name) { return values[columns_.at(name)]; };
-    OdometryRow row;
-    row.timestamp = at("timestamp");
-    const std::optional<int> frame = WholeNumber(at("frame"));
-    if (!frame || *frame < 0) line.Fail("the frame must be a whole number from 0; correct it");
-    row.frame = *frame;
-    const auto rotation = NormalizedQuaternion({at("qx"), at("qy"), at("qz"), at("qw")});
-    if (!rotation) line.Fail("qx, qy, qz, qw are no quaternion of length 1; correct the line");
-    row.world_from_cam = Rigid3(*rotation, Eigen::Vector3d(at("x"), at("y"), at("z")));
-    if (HasIntrinsics()) {
-      row.camera.emplace();
-      row.camera->fx = at("fx");
-      row.camera->fy = at("fy");
-      row.camera->cx = at("cx");
-      row.camera->cy = at("cy");
-    }
-    return row;
+OdometryRow ReadRow(const NamedColumns& table, size_t row) {
+  const auto at = [&](const char* name) { return table.Number(row, table.Column(name)); };
+  OdometryRow odometry;
+  odometry.timestamp = at("timestamp");
+  const std::optional<int> frame = WholeNumber(at("frame"));
+  if (!frame || *frame < 0) table.Fail(row, "the frame must be a whole number from 0");
+  odometry.frame = *frame;
+  const auto rotation = NormalizedQuaternion({at("qx"), at("qy"), at("qz"), at("qw")});
+  if (!rotation) table.Fail(row, "qx, qy, qz, qw are no quaternion of length 1");
+  odometry.world_from_cam = Rigid3(*rotation, Eigen::Vector3d(at("x"), at("y"), at("z")));
+  if (table.Has("fx") && table.Has("fy") && table.Has("cx") && table.Has("cy")) {
+    odometry.camera.emplace();
+    odometry.camera->fx = at("fx");
+    odometry.camera->fy = at("fy");
+    odometry.camera->cx = at("cx");
+    odometry.camera->cy = at("cy");
   }
-
- private:
-  bool HasIntrinsics() const {
-    return columns_.count("fx") > 0 && columns_.count("fy") > 0 && columns_.count("cx") > 0 &&
-           columns_.count("cy") > 0;
-  }
-
-  size_t num_columns_;
-  std::map<std::string, size_t> columns_;
-};
+  return odometry;
+}
 
 std::vector<OdometryRow> ReadOdometry(const std::string& path) {
-  const std::vector<TextLine> lines = ReadTextLines(path);
-  if (lines.empty()) throw std::runtime_error(path + ": is empty; copy the recording again");
-  const OdometryColumns columns(lines.front());
+  const NamedColumns table(path, kFixes);
   std::vector<OdometryRow> rows;
-  for (size_t i = 1; i < lines.size(); ++i) rows.push_back(columns.Read(lines[i]));
+  for (size_t row = 0; row < table.num_rows(); ++row) rows.push_back(ReadRow(table, row));
   if (rows.empty()) throw std::runtime_error(path + ": has no rows; copy the recording again");
   return rows;
 }

@@ -36,6 +36,8 @@ struct Benchmark {
   std::string build;  ///< compiler and build type
   int num_processors = 0;
   int max_frames = 0;                       ///< of every sequence; 0: all
+  std::string mask;                         ///< in each sequence, or absolute; empty: none
+  bool mask_zero = false;                   ///< pixels of masks that are zero are left out
   std::vector<OptionText> changed_options;  ///< differences from the defaults, without the mode
   std::vector<std::string> modes;
   std::vector<BenchmarkRun> runs;  ///< by sequence, then in the order of `modes`

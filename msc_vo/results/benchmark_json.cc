@@ -66,6 +66,8 @@ std::string FormatBenchmarkJson(const Benchmark& benchmark) {
   json["build"] = benchmark.build;
   json["processors"] = benchmark.num_processors;
   json["max_frames"] = benchmark.max_frames;
+  json["mask"] = benchmark.mask.empty() ? Json() : Json(benchmark.mask);
+  json["mask_zero"] = benchmark.mask_zero;
   json["changed_options"] = Json::object();
   for (const OptionText& option : benchmark.changed_options) {
     json["changed_options"][option.path] = option.value;
@@ -103,6 +105,8 @@ Benchmark ReadBenchmarkJson(const std::string& path) {
     benchmark.build = json.at("build");
     benchmark.num_processors = json.at("processors");
     benchmark.max_frames = json.at("max_frames");
+    if (!json.at("mask").is_null()) json.at("mask").get_to(benchmark.mask);
+    json.at("mask_zero").get_to(benchmark.mask_zero);
     for (const auto& [name, value] : json.at("changed_options").items()) {
       benchmark.changed_options.push_back({name, value});
     }

@@ -33,6 +33,11 @@ std::string OptionsText(const Benchmark& benchmark) {
   return text.empty() ? " none" : text;
 }
 
+std::string MaskText(const Benchmark& benchmark) {
+  if (benchmark.mask.empty()) return "none";
+  return benchmark.mask + (benchmark.mask_zero ? " --mask-zero" : "");
+}
+
 std::string ModesText(const Benchmark& benchmark) {
   std::string text;
   for (const std::string& mode : benchmark.modes) text += " " + mode;
@@ -82,6 +87,7 @@ std::string DescribeDifference(const Benchmark& a, const Benchmark& b) {
   if (OptionsText(a) != OptionsText(b)) {
     return "options" + OptionsText(a) + " and" + OptionsText(b);
   }
+  if (MaskText(a) != MaskText(b)) return "--mask " + MaskText(a) + " and " + MaskText(b);
   if (a.max_frames != b.max_frames) {
     return "--max-frames " + std::to_string(a.max_frames) + " and " + std::to_string(b.max_frames) +
            " (0: all)";

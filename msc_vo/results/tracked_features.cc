@@ -12,15 +12,15 @@ namespace msc_vo {
 
 namespace {
 
-std::optional<int> AxisIn(const MapSnapshot& snapshot, const LineLandmark& line) {
-  if (!snapshot.axes) return std::nullopt;
-  return AxisOfLine(*snapshot.axes, line);
+std::optional<int> AxisIn(const std::optional<AxesEstimate>& axes, const LineLandmark& line) {
+  if (!axes) return std::nullopt;
+  return AxisOfLine(*axes, line);
 }
 
 LineColor ColorOf(const LineFeature& feature, const LineLandmark* landmark,
-                  const MapSnapshot& snapshot) {
+                  const std::optional<AxesEstimate>& axes) {
   if (!feature.depth) return LineColor::kWithoutDepth;
-  const std::optional<int> axis = landmark == nullptr ? std::nullopt : AxisIn(snapshot, *landmark);
+  const std::optional<int> axis = landmark == nullptr ? std::nullopt : AxisIn(axes, *landmark);
   return axis ? static_cast<LineColor>(*axis) : LineColor::kWithoutAxis;
 }
 
@@ -41,7 +41,29 @@ ViewedFeatures TrackedFeatures(const TrackedImage& tracked, const LensDistortion
     const LineFeature& line = frame.lines[match.feature];
     features.lines.push_back(
         {recorded(line.segment.start), recorded(line.segment.end),
-         ColorOf(line, tracked.map.map.Find<LineLandmark>(match.id), tracked.map)});
+         ColorOf(line, tracked.map.map.Find<LineLandmark>(match.id), tracked.map.axes)});
+  }
+  return features;
+}
+
+ViewedFeatures ObservedFeatures(const Keyframe& keyframe, const Map& map,
+                                const std::optional<AxesEstimate>& axes) {
+  const Frame& frame = *keyframe.frame;
+  const LensDistortion lens = frame.intrinsics ? frame.intrinsics->distortion : LensDistortion();
+  const auto recorded = [&](const Eigen::Vector2d& pixel) -> Eigen::Vector2f {
+    return lens.Distort(frame.camera, pixel).cast<float>();
+  };
+  ViewedFeatures features;
+  for (size_t i = 0; i < frame.points.size(); ++i) {
+    if (SlotsOf<PointLandmark>(keyframe)[i] == kNoId) continue;
+    features.points.push_back({recorded(frame.points[i].pixel), frame.points[i].HasDepth()});
+  }
+  for (size_t i = 0; i < frame.lines.size(); ++i) {
+    const LandmarkId id = SlotsOf<LineLandmark>(keyframe)[i];
+    if (id == kNoId) continue;
+    const LineFeature& line = frame.lines[i];
+    features.lines.push_back({recorded(line.segment.start), recorded(line.segment.end),
+                              ColorOf(line, map.Find<LineLandmark>(id), axes)});
   }
   return features;
 }
@@ -49,7 +71,7 @@ ViewedFeatures TrackedFeatures(const TrackedImage& tracked, const LensDistortion
 ReportMap ViewedMap(const MapSnapshot& snapshot) {
   ReportMap map;
   for (const auto& [id, line] : snapshot.map.lines()) {
-    map.lines.push_back({line.segment, AxisIn(snapshot, line).value_or(-1)});
+    map.lines.push_back({line.segment, AxisIn(snapshot.axes, line).value_or(-1)});
   }
   for (const auto& [id, point] : snapshot.map.points()) map.points.push_back(point.position);
   for (const PlaneLandmark& landmark : snapshot.planes.planes) {

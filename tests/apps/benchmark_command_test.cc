@@ -13,6 +13,7 @@
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
@@ -90,6 +91,33 @@ TEST_F(BenchmarkCommandTest, ContinuesAfterFailedSequences) {
   EXPECT_EQ(runs[2]["sequence"], "room-2");  // unique folder
   EXPECT_EQ(runs[2]["frames"]["count"], 6);
   EXPECT_TRUE(runs[2]["failure"].is_null());
+}
+
+TEST_F(BenchmarkCommandTest, TakesTheMasksOfEachSequence) {
+  Synthesize("room", 8, "a");
+  Synthesize("room", 12, "b");
+  cv::Mat mask = cv::Mat::zeros(120, 160, CV_8UC1);
+  mask.colRange(0, 40) = 255;
+  ASSERT_TRUE(cv::imwrite(Path("a/arm.png"), mask));
+  const auto benchmark = [this](const std::string& path, int exit_code) {
+    const CommandOutcome outcome =
+        RunCommand({"benchmark", Path("a"), Path("b"), "--modes", "pl-vo-depth", "--mask", path,
+                    "--output", Path("out"), "--quiet"});
+    EXPECT_EQ(outcome.exit_code, exit_code) << outcome.output;
+    return outcome.output;
+  };
+  EXPECT_THAT(benchmark("arm.png", 1), Names(Path("b/arm.png"), "does not exist", "--mask"));
+  EXPECT_TRUE(Numbers()["runs"][0]["failure"].is_null());
+  ASSERT_TRUE(cv::imwrite(Path("b/arm.png"), mask));
+  benchmark("arm.png", 0);
+  EXPECT_EQ(Numbers()["mask"], "arm.png");
+  const std::string of_b = ReadFile(Path("out/b/pl-vo-depth/trajectory.txt"));
+  benchmark(Path("a/arm.png"), 0);  // one for all of them
+  EXPECT_EQ(ReadFile(Path("out/b/pl-vo-depth/trajectory.txt")), of_b);
+  EXPECT_THAT(RunCommand({"benchmark", Path("a"), Path("b"), "--modes", "pl-vo-depth", "--resume",
+                          "--output", Path("out")})
+                  .output,
+              Names("--mask", "none", "settings"));
 }
 
 TEST_F(BenchmarkCommandTest, ExcludesRunsWithFailedTrackingFromTheMean) {

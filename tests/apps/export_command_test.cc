@@ -11,6 +11,8 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "msc_vo/datasets/trajectory_format.h"
+#include "msc_vo/map_file/map_reader.h"
+#include "msc_vo/results/tracked_features.h"
 #include "msc_vo/ros_bag/bag_file.h"
 #include "msc_vo/text/files.h"
 
@@ -78,6 +80,72 @@ TEST_F(ExportCommandTest, WritesBagsForRos2) {
   EXPECT_EQ(OpenBagFile(Path("y.mcap"))->NumMessages("/msc_vo/pose"), 3);
   EXPECT_THAT(Run({"export", Path("run/trajectory.txt"), "mcap", Path("z.mcap")}, 1),
               Names("trajectory.txt", "folder"));
+}
+#endif
+
+#ifdef MSC_VO_HAS_MCAP
+// Ratio of the features with a coloured pixel beside them.
+double DrawnRatio(const cv::Mat& image, const ViewedFeatures& features) {
+  std::vector<Eigen::Vector2f> pixels;
+  for (const ViewedPoint& point : features.points) pixels.push_back(point.pixel);
+  for (const ViewedLine& line : features.lines) pixels.push_back(0.5f * (line.start + line.end));
+  int num_drawn = 0;
+  for (const Eigen::Vector2f& pixel : pixels) {
+    const cv::Rect around(cvRound(pixel.x()) - 3, cvRound(pixel.y()) - 3, 7, 7);
+    std::vector<cv::Mat> channels;
+    cv::split(image(around & cv::Rect(0, 0, image.cols, image.rows)), channels);
+    num_drawn += cv::norm(channels[0], channels[2], cv::NORM_INF) > 50.0;
+  }
+  return static_cast<double>(num_drawn) / static_cast<double>(pixels.size());
+}
+
+TEST_F(ExportCommandTest, DrawsFeaturesOfKeyframes) {
+  Run({"export", Path("run"), "mcap", Path("x.mcap"), "--map", Path("x.map")});
+  const std::string topic = "/msc_vo/features/compressed";
+  const auto bag = OpenBagFile(Path("x.mcap"));
+  const std::vector<TimedPose> keyframes = ReadTrajectoryFile(Path("run/keyframes.txt")).poses;
+  const MapContents contents = LoadMap(Path("x.map"));
+  const SavedSubMap& submap = contents.submaps.front();
+  ASSERT_EQ(bag->NumMessages(topic), static_cast<int>(keyframes.size()));
+  ASSERT_EQ(submap.map.keyframes().size(), keyframes.size());
+  int i = 0;
+  for (const auto& [id, keyframe] : submap.map.keyframes()) {
+    EXPECT_EQ(bag->ReceiveTime(topic, i), keyframes[static_cast<size_t>(i)].timestamp);
+    const std::string message = bag->Read(topic, i++);
+    const size_t begin = message.find("\xFF\xD8\xFF");
+    ASSERT_NE(begin, std::string::npos);
+    const std::vector<char> jpeg(message.begin() + static_cast<long>(begin), message.end());
+    const cv::Mat image = cv::imdecode(jpeg, cv::IMREAD_COLOR);
+    ASSERT_EQ(image.size(), cv::Size(160, 120));
+    const ViewedFeatures features = ObservedFeatures(keyframe, submap.map, submap.axes);
+    EXPECT_GT(features.points.size(), 20u);
+    EXPECT_GT(features.lines.size(), 5u);
+    EXPECT_GT(DrawnRatio(image, features), 0.98);
+    // Elsewhere the image is grey.
+    ViewedFeatures mirrored = features;
+    for (ViewedPoint& point : mirrored.points) point.pixel.x() = 159.0f - point.pixel.x();
+    mirrored.lines.clear();
+    EXPECT_LT(DrawnRatio(image, mirrored), 0.8);
+  }
+  EXPECT_THAT(Run({"export", Path("run"), "tum", Path("a"), "--map", Path("x.map")}, 1),
+              Names("--map", "tum"));
+}
+
+TEST_F(ExportCommandTest, DrawsTheSessionOfTheRun) {
+  Run({"synthesize", Path("y"), "--frames", "12", "--width", "160", "--seed", "2"});
+  Run({"replay", Path("y"), "--output", Path("other"), "--map", Path("y.map"), "--quiet"});
+  EXPECT_THAT(Run({"export", Path("run"), "mcap", Path("a.mcap"), "--map", Path("y.map")}, 1),
+              Names("y.map", Path("x"), "--map"));
+  EXPECT_FALSE(HasEntry(Path("a.mcap")));
+  // A later session with the same time stamps.
+  Run({"export", Path("run"), "mcap", Path("a.mcap"), "--map", Path("x.map")});
+  Run({"replay", Path("y"), "--output", Path("other"), "--overwrite", "--map", Path("x.map"),
+       "--quiet"});
+  Run({"export", Path("run"), "mcap", Path("b.mcap"), "--map", Path("x.map")});
+  const std::string topic = "/msc_vo/features/compressed";
+  const auto before = OpenBagFile(Path("a.mcap")), after = OpenBagFile(Path("b.mcap"));
+  ASSERT_EQ(before->NumMessages(topic), after->NumMessages(topic));
+  EXPECT_TRUE(before->Read(topic, 0) == after->Read(topic, 0));
 }
 #endif
 
@@ -182,6 +250,7 @@ TEST_F(ExportCommandTest, ReplayWritesTheSameBytes) {
       arguments.push_back("--sequence");
       arguments.push_back(Path("x"));
     }
+    if (format == "mcap") arguments.insert(arguments.end(), {"--map", Path("again.map")});
     Run(arguments);
     const std::string file = format == "colmap" ? "/images.txt" : "";
     EXPECT_TRUE(ReadFile(Path("a_" + format + file)) == ReadFile(Path("b_" + format + file)))

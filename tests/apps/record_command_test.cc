@@ -10,6 +10,7 @@
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <unistd.h>
 
 #include "msc_vo/text/files.h"
@@ -53,6 +54,36 @@ TEST_F(RecordCommandTest, CopiesASequence) {
     ASSERT_EQ(replay.exit_code, 0) << replay.output;
   }
   EXPECT_EQ(ReadFile(Path("out_room/trajectory.txt")), ReadFile(Path("out_copy/trajectory.txt")));
+}
+
+// The recording with its masks gives the poses of the source with its own.
+TEST_F(RecordCommandTest, RecordsMasks) {
+  Synthesize(6);
+  cv::Mat used = cv::Mat::ones(60, 80, CV_8UC1);  // half the size of the images
+  used.colRange(0, 30) = 0;
+  ASSERT_TRUE(cv::imwrite(Path("used.png"), used));
+  const CommandOutcome outcome =
+      RunCommand({"record", Path("room"), Path("copy"), "--mask", Path("used.png"), "--mask-zero"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("--mask " + Path("copy/mask")));
+  EXPECT_EQ(NumConsistentPairs(Path("copy")), 6u);
+  EXPECT_EQ(ListFolder(Path("copy/mask")).size(), 6u);
+  const cv::Mat mask = cv::imread(Path("copy/mask/1.000000.png"), cv::IMREAD_UNCHANGED);
+  EXPECT_EQ(mask.size(), cv::Size(160, 120));
+  EXPECT_EQ(cv::countNonZero(mask), 60 * 120);
+  EXPECT_EQ(cv::countNonZero(mask.colRange(0, 60)), 60 * 120);
+  EXPECT_EQ(ReadFile(Path("copy/depth/1.000000.png")), ReadFile(Path("room/depth/1.000000.png")));
+  const auto replay = [this](const std::vector<std::string>& arguments, const std::string& output) {
+    std::vector<std::string> all = {"replay", "--output", Path(output), "--quiet"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const CommandOutcome run = RunCommand(all);
+    EXPECT_EQ(run.exit_code, 0) << run.output;
+    return ReadFile(Path(output + "/trajectory.txt"));
+  };
+  const std::string masked =
+      replay({Path("room"), "--mask", Path("used.png"), "--mask-zero"}, "out_room");
+  EXPECT_EQ(replay({Path("copy"), "--mask", Path("copy/mask")}, "out_copy"), masked);
+  EXPECT_NE(replay({Path("room")}, "out_whole"), masked);
 }
 
 TEST_F(RecordCommandTest, RefusesFoldersWithFiles) {

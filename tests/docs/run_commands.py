@@ -60,6 +60,8 @@ def prepare(scratch, root, run):
     for name in ("groundtruth.txt", "edges.ply"):
         shutil.copy(scratch / "my_sequence" / name, scratch)
     shutil.copy(scratch / "out" / "trajectory.txt", scratch)
+    # A mask of the left edge, as PGM: the contents of an image say its format.
+    (scratch / "arm.png").write_bytes(b"P5 640 480 255\n" + 480 * (100 * b"\xff" + 540 * b"\0"))
     write_euroc(scratch / "groundtruth.txt",
                 scratch / "mav0" / "state_groundtruth_estimate0" / "data.csv")
     for room in ("room_1", "room_2"):

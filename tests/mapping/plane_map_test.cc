@@ -36,7 +36,7 @@ class PlaneMapTest : public testing::Test {
   void Add(const Rigid3& pose) {
     auto frame = std::make_shared<Frame>();
     frame->planes = {FeatureOf(pose * kWall), FeatureOf(pose * kFloor)};
-    planes_.AddKeyframe(map_, map_.AddKeyframe(frame, pose));
+    planes_.AddKeyframe(map_, map_.AddKeyframe(frame, pose), PoseCovariance::Zero());
   }
   // The largest difference of the parameters of the planes from those of wall and floor, moved.
   double Error(const Rigid3& moved) const {
@@ -120,7 +120,7 @@ class PlaneExtentsTest : public testing::Test {
     auto frame = std::make_shared<Frame>();
     frame->planes = {feature(pose)};
     const KeyframeId id = map_.AddKeyframe(frame, error * pose);
-    planes_.AddKeyframe(map_, id);
+    planes_.AddKeyframe(map_, id, PoseCovariance::Zero());
     return id;
   }
   KeyframeId AddPatch(double min_x, double max_x, const Rigid3& error = {}) {

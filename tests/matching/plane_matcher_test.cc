@@ -29,6 +29,7 @@ MapPlanes MapOf(const std::vector<Plane>& planes) {
   return map;
 }
 
+const PoseCovariance kCertain = PoseCovariance::Zero();
 const Plane kWall({0.0, 0.0, -1.0}, 2.0), kSide({-1.0, 0.0, 0.0}, 1.0);
 
 TEST(MatchPlanes, FindsPlanesFromANearbyPose) {
@@ -36,23 +37,46 @@ TEST(MatchPlanes, FindsPlanesFromANearbyPose) {
   const Rigid3 truth(ExpSO3({0.0, 0.1, 0.0}), {0.1, 0.0, 0.2});
   const std::vector<PlaneFeature> features{FeatureOf(truth * kSide), FeatureOf(truth * kWall)};
   const Rigid3 predicted = Rigid3(ExpSO3({0.0, 0.003, 0.0}), {0.005, 0.0, 0.005}) * truth;
-  const std::vector<PlaneMatch> matches = MatchPlanes(features, map, predicted);
+  const std::vector<PlaneMatch> matches =
+      MatchPlanes(features, map, predicted, IsotropicCovariance(0.003, 0.005));
   ASSERT_EQ(matches.size(), 2u);
   EXPECT_EQ(matches[0].plane, 10);
   EXPECT_EQ(matches[1].plane, 0);
+}
+
+TEST(MatchPlanes, DependsOnTheUncertaintyOfThePose) {
+  const MapPlanes map = MapOf({kWall});
+  const std::vector<PlaneFeature> features{FeatureOf(Plane({0.0, 0.0, -1.0}, 2.1))};
+  EXPECT_TRUE(MatchPlanes(features, map, {}, kCertain).empty()) << "0.024 1/m, six sigmas";
+  EXPECT_EQ(MatchPlanes(features, map, {}, IsotropicCovariance(0.002, 0.05)).size(), 1u);
+  EXPECT_TRUE(MatchPlanes(features, map, {}, IsotropicCovariance(0.002, 0.2)).empty())
+      << "from there, the plane may be another one";
+}
+
+// The rotation of a pose acts on its translation with a lever arm.
+TEST(MatchPlanes, TakesTheCovarianceInTheTangentOfThePose) {
+  const Rigid3 truth(ExpSO3({0.0, 0.1, 0.0}), {20.0, 0.0, 0.2});  // far from the world's origin
+  const Plane wall({0.0, 0.0, -1.0}, 2.0);
+  const std::vector<PlaneFeature> features{FeatureOf(wall)};
+  const MapPlanes map = MapOf({truth.Inverse() * wall});
+  const PoseCovariance of_camera = IsotropicCovariance(0.003, 0.003);
+  EXPECT_EQ(MatchPlanes(features, map, truth, CovarianceOfCamera(truth, of_camera)).size(), 1u);
+  EXPECT_TRUE(MatchPlanes(features, map, truth, of_camera).empty());
 }
 
 TEST(MatchPlanes, TellsParallelPlanesApart) {
   const Plane panel({0.0, 0.0, -1.0}, 1.8);  // 20 cm in front of the wall
-  const auto matches = MatchPlanes({FeatureOf(panel), FeatureOf(kWall)}, MapOf({kWall, panel}), {});
+  const auto matches =
+      MatchPlanes({FeatureOf(panel), FeatureOf(kWall)}, MapOf({kWall, panel}), {}, kCertain);
   ASSERT_EQ(matches.size(), 2u);
   EXPECT_EQ(matches[0].plane, 10);
   EXPECT_EQ(matches[1].plane, 0);
-  EXPECT_TRUE(MatchPlanes({FeatureOf(panel)}, MapOf({kWall}), {}).empty());
+  EXPECT_TRUE(MatchPlanes({FeatureOf(panel)}, MapOf({kWall}), {}, kCertain).empty());
 }
 
 TEST(MatchPlanes, MatchesPartsOfOneWallWithIt) {
-  EXPECT_EQ(MatchPlanes({FeatureOf(kWall), FeatureOf(kWall)}, MapOf({kWall}), {}).size(), 2u);
+  EXPECT_EQ(MatchPlanes({FeatureOf(kWall), FeatureOf(kWall)}, MapOf({kWall}), {}, kCertain).size(),
+            2u);
 }
 
 // An extent of one square metre on the plane z = 2.
@@ -65,13 +89,14 @@ TEST(MatchPlanes, PrefersThePlaneWhoseExtentIsSeen) {
   map.planes[0].extent = Square(3.0);
   map.planes[1].extent = Square(0.0);
   PlaneFeature feature = FeatureOf(kWall);
-  EXPECT_EQ(MatchPlanes({feature}, map, {})[0].plane, 0) << "without a hull, the nearest";
+  EXPECT_EQ(MatchPlanes({feature}, map, {}, kCertain)[0].plane, 0) << "without a hull, the nearest";
   feature.hull = {{0.1, 0.1}, {0.4, 0.1}, {0.2, 0.4}};
-  EXPECT_EQ(MatchPlanes({feature}, map, {})[0].plane, 10);
+  EXPECT_EQ(MatchPlanes({feature}, map, {}, kCertain)[0].plane, 10);
   std::swap(map.planes[0].extent, map.planes[1].extent);
-  EXPECT_EQ(MatchPlanes({feature}, map, {})[0].plane, 0);
+  EXPECT_EQ(MatchPlanes({feature}, map, {}, kCertain)[0].plane, 0);
   map.planes[0].extent = map.planes[1].extent;
-  EXPECT_EQ(MatchPlanes({feature}, map, {})[0].plane, 0) << "if none is seen, the nearest";
+  EXPECT_EQ(MatchPlanes({feature}, map, {}, kCertain)[0].plane, 0)
+      << "if none is seen, the nearest";
 }
 
 TEST(AreSamePlane, WithinTheUncertaintyOfTheFeature) {
@@ -93,7 +118,7 @@ TEST(AreSamePlane, WithinTheUncertaintyOfTheFeature) {
 // A wall has two sides.
 TEST(MatchPlanes, DoesNotMatchTheBackOfAPlane) {
   const Plane back({0.0, 0.0, 1.0}, -2.0);
-  EXPECT_TRUE(MatchPlanes({FeatureOf(kWall)}, MapOf({back}), {}).empty());
+  EXPECT_TRUE(MatchPlanes({FeatureOf(kWall)}, MapOf({back}), {}, kCertain).empty());
 }
 
 TEST(DetermineAPose, NeedsThreeDirections) {

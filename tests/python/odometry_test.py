@@ -46,6 +46,26 @@ class SequenceTest(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "mask"):
             odometry.process(image.timestamp + 1.0, image.gray, image.depth, mask=pixels[:240])
 
+    def test_videos_are_read(self):
+        with tempfile.TemporaryDirectory() as scratch:
+            folder = pathlib.Path(scratch, "recording")
+            source = pathlib.Path(support.room().directory)
+            subprocess.run([os.environ["MSC_VO_COMMAND"], "replay", source, "--max-frames", "8", "--quiet",
+                            "--output", folder / "run", "--overlay", folder / "color.mp4"], check=True)
+            depth = folder / "depth"
+            depth.mkdir()
+            for image in sorted((source / "depth").iterdir())[:8]:
+                (depth / image.name).write_bytes(image.read_bytes())
+            (folder / "camera.txt").write_bytes((source / "camera.txt").read_bytes())
+            sequence = msc_vo.Sequence(folder)
+            self.assertEqual((sequence.format, len(sequence)), ("video-depth", 8))
+            self.assertEqual(sequence[7].gray.shape, (480, 640))
+            msc_vo.replay(sequence).write_trajectory(folder / "python.txt")
+            subprocess.run([os.environ["MSC_VO_COMMAND"], "replay", folder, "--quiet", "--output",
+                            folder / "command"], check=True)
+            self.assertEqual((folder / "python.txt").read_bytes(),
+                             (folder / "command" / "trajectory.txt").read_bytes())
+
     def test_missing_folders_are_named(self):
         with self.assertRaisesRegex(RuntimeError, "no_such_folder"):
             msc_vo.Sequence("no_such_folder")

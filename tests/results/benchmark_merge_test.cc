@@ -102,6 +102,10 @@ TEST_F(BenchmarkMergeTest, DescribesDifferentSettings) {
   other = benchmark;
   other.max_frames = 10;
   EXPECT_THAT(DescribeDifference(benchmark, other), Names("--max-frames", "0", "10"));
+  other = benchmark;
+  other.mask = "mask";
+  other.mask_zero = true;
+  EXPECT_THAT(DescribeDifference(benchmark, other), Names("--mask", "none", "--mask-zero"));
 }
 
 TEST_F(BenchmarkMergeTest, LinksReports) {
