@@ -215,7 +215,7 @@ TEST_F(PlaneMapTest, JoinsKeepThePlanesOfBothMaps) {
   frame->planes = {FeatureOf(kWall)};
   Map other_map = map_.Next();
   const KeyframeId keyframe = other_map.AddKeyframe(frame, {}, 7);
-  other.AddKeyframe(other_map, keyframe);
+  other.AddKeyframe(other_map, keyframe, PoseCovariance::Zero());
   map_.Merge(other_map);
   planes_.Join(std::move(other));
   EXPECT_EQ(planes_.InWorld(map_).planes.size(), 3u);
