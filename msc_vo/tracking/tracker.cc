@@ -3,27 +3,21 @@
 
 #include "msc_vo/tracking/tracker.h"
 
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
-#include "msc_vo/factors/pose_prior.h"
 #include "msc_vo/frame/feature_counts.h"
-#include "msc_vo/geometry/angles.h"
-#include "msc_vo/geometry/pose_covariance.h"
 #include "msc_vo/matching/local_map.h"
 #include "msc_vo/matching/plane_matcher.h"
 #include "msc_vo/pose_estimation/plane_factors.h"
 #include "msc_vo/tracking/dynamic_features.h"
 #include "msc_vo/tracking/frame_compensation.h"
+#include "msc_vo/tracking/plane_pose.h"
 #include "msc_vo/tracking/pose_support.h"
 
 namespace msc_vo {
 
 namespace {
-
-// The camera may stop or turn at any time: of hand-held cameras, metres and radians per second.
-constexpr double kSpeedSigma = 0.5, kTurnSigma = 1.0;
 
 void SetPose(const Map& map, const Rigid3& cam_from_world, KeyframeId reference,
              TrackedFrame* tracked) {
@@ -49,35 +43,6 @@ PoseSummary WithDynamicObjects(PoseSummary last, const PoseSummary& first) {
     last.dynamic_cells = first.dynamic_cells;
   }
   return last;
-}
-
-// Few points state a third of their error (90 % quantile, hard scenes), or less.
-constexpr double kUnstatedError = 3.0;
-const PoseCovariance kLeastPoseError = IsotropicCovariance(DegreesToRadians(0.3), 0.003);
-
-// Error of a pose that is predicted over an interval (seconds), of a hand-held camera: it
-// accelerates, or, if its velocity is not known, moves.
-PoseCovariance MotionCovariance(double seconds, bool has_velocity) {
-  constexpr double kAcceleration = 3.0, kTurnAcceleration = 6.0;  // m/s^2, rad/s^2
-  const double of_velocity = seconds * seconds;
-  return has_velocity
-             ? IsotropicCovariance(kTurnAcceleration * of_velocity, kAcceleration * of_velocity)
-             : IsotropicCovariance(kTurnSigma * seconds, kSpeedSigma * seconds);
-}
-
-// What is known of the pose where planes leave it free, with sigmas that grow since the last frame
-// that was determined.
-PoseFactor MotionPrior(const Rigid3& cam_from_world, double seconds) {
-  const PoseCovariance covariance = CovarianceOfCamera(
-      cam_from_world, IsotropicCovariance(kTurnSigma * seconds, kSpeedSigma * seconds));
-  return {"motion", PosePrior::CreateShared(cam_from_world, covariance), nullptr};
-}
-
-std::vector<PlaneFeature> MatchedFeatures(const std::vector<PlaneFeature>& features,
-                                          const std::vector<PlaneMatch>& matches) {
-  std::vector<PlaneFeature> matched;
-  for (const PlaneMatch& match : matches) matched.push_back(features[match.feature]);
-  return matched;
 }
 
 }  // namespace
@@ -152,55 +117,51 @@ TrackedFrame Tracker::TrackInGap(const Input& input) {
 
 // After a gap, a prediction does not tell parallel planes apart.
 std::optional<TrackedFrame> Tracker::TrackByPlanes(const Input& input) {
-  const Frame& frame = *input.frame;
-  const double seconds = frame.timestamp - last_.frame->timestamp;
-  if (in_gap_ || seconds > options_.max_prediction) return std::nullopt;
-  // Behind a frame that was not determined, the velocity is that of noise.
-  const bool has_velocity = last_determined_ == last_.frame->timestamp;
-  const bool has_pose = input.prediction.by_factors.usable;
-  PoseCovariance covariance = input.prediction.by_factors.covariance;
-  Rigid3 cam_from_world = input.prediction.cam_from_world;
-  if (!has_pose) {
-    if (!has_velocity) cam_from_world = input.last_from_world;
-    covariance = ComposeCovariances(cam_from_world * input.last_from_world.Inverse(),
-                                    MotionCovariance(seconds, has_velocity), input.last_from_world,
-                                    last_covariance_);
-  }
-  const MapPlanes& map = input.snapshot.planes;
-  const std::vector<PlaneMatch> matches =
-      MatchPlanes(frame.planes, map, cam_from_world, covariance);
-  if (matches.empty()) return std::nullopt;
-  const bool is_determined = DetermineAPose(MatchedFeatures(frame.planes, matches));
-  std::vector<PoseFactor> factors = MakePlanePoseFactors(frame.planes, matches, map);
-  factors.insert(factors.end(), pose_factors_.begin(), pose_factors_.end());
-  if (!has_pose && !is_determined) {
-    factors.push_back(MotionPrior(cam_from_world, frame.timestamp - last_determined_));
-  }
-  FrameMatches none;
-  Input by_planes = input;
-  PosePrediction& pose = by_planes.prediction;
-  pose.cam_from_world = cam_from_world;
-  pose.by_factors =
-      EstimateFramePose(options_.pose, frame, input.snapshot.map, input.snapshot.noise_scale,
-                        factors, &pose.cam_from_world, &none);
-  if (!pose.by_factors.usable) return std::nullopt;
-  TrackedFrame tracked = BridgeWithPrediction(by_planes);
-  tracked.planes = matches;
+  const double timestamp = input.frame->timestamp;
+  if (in_gap_ || timestamp - last_.frame->timestamp > options_.max_prediction) return std::nullopt;
+  const std::optional<PlanePose> pose =
+      EstimateByPlanes(options_, *input.frame, input.snapshot, ExpectPoseOf(input), pose_factors_);
+  if (!pose) return std::nullopt;
+  TrackedFrame tracked;
+  tracked.frame = input.frame;
+  tracked.pose = pose->summary;
+  tracked.planes = pose->planes;
+  SetPose(input.snapshot.map, pose->cam_from_world,
+          ReferenceOrNewest(input.snapshot.map, last_.reference), &tracked);
+  tracked.cam_from_last = tracked.cam_from_world * input.last_from_world.Inverse();
   // A direction that the planes leave free has the sigma of the prior, which begins small.
-  tracked.status = is_determined ? ClassifyStatus(options_, tracked.pose) : TrackingStatus::kWeak;
+  tracked.status =
+      pose->is_determined ? ClassifyStatus(options_, tracked.pose) : TrackingStatus::kWeak;
   const bool is_certain = tracked.status == TrackingStatus::kTracked;
-  if (is_certain && policy_.IsDue(frame, tracked.matches, is_certain)) {
-    tracked.keyframe.id = MakeKeyframe(frame.timestamp);
+  if (is_certain && policy_.IsDue(*input.frame, tracked.matches, is_certain)) {
+    tracked.keyframe.id = MakeKeyframe(timestamp);
   }
-  segment_start_.Tracked(frame.timestamp);
+  segment_start_.Tracked(timestamp);
   Follow(&tracked);
   return tracked;
+}
+
+ExpectedPose Tracker::ExpectPoseOf(const Input& input) const {
+  const PosePrediction& prediction = input.prediction;
+  if (prediction.by_factors.usable) {
+    return {prediction.cam_from_world, prediction.by_factors.covariance, std::nullopt};
+  }
+  // Behind a frame that was not determined, the velocity is that of noise.
+  std::optional<Rigid3> velocity;
+  if (last_determined_ == last_.frame->timestamp) {
+    velocity = prediction.cam_from_world * input.last_from_world.Inverse();
+  }
+  const double timestamp = input.frame->timestamp;
+  return ExpectPose(input.last_from_world, last_covariance_, timestamp - last_.frame->timestamp,
+                    velocity, timestamp - last_determined_);
 }
 
 TrackedFrame Tracker::Initialize(const std::shared_ptr<const Frame>& frame) {
   TrackedFrame tracked;
   tracked.frame = frame;
-  if (CanBeginMap(*frame, options_.min_initial_features) || DetermineAPose(frame->planes)) {
+  // An image without any feature is that of a covered camera.
+  const bool shows_planes = DetermineAPose(frame->planes) && Sum(SizesOf(*frame)) > 0;
+  if (CanBeginMap(*frame, options_.min_initial_features) || shows_planes) {
     StartSegment(SegmentStart::kFirst, &tracked);
   }
   return tracked;
@@ -305,16 +266,13 @@ TrackedFrame Tracker::TrackLocalMap(const Input& input, const FramePose& initial
     return SelectLocalMap(map, *tracked.frame, initial.cam_from_world, initial.matches,
                           ReferenceOrNewest(map, last_.reference), options_.max_local_keyframes);
   });
-  tracked.planes = MatchPlanes(tracked.frame->planes, input.snapshot.planes, initial.cam_from_world,
-                               kUnstatedError * kUnstatedError * initial.summary.covariance +
-                                   CovarianceOfCamera(initial.cam_from_world, kLeastPoseError));
+  tracked.planes = MatchPlanesAt(initial, *tracked.frame, input.snapshot.planes);
   estimator->AddFactors(
       MakePlanePoseFactors(tracked.frame->planes, tracked.planes, input.snapshot.planes));
   std::optional<FramePose> refined =
       estimator->MatchAndEstimate(options_.pose, *tracked.frame, local, options_.local_map_radius,
                                   initial.cam_from_world, LandmarkInliers(initial.matches));
-  const bool is_known =
-      refined || DetermineAPose(MatchedFeatures(tracked.frame->planes, tracked.planes));
+  const bool is_known = refined || DetermineAPose(*tracked.frame, tracked.planes);
   if (!refined && !tracked.planes.empty()) {
     refined =
         estimator->Estimate(options_.pose, *tracked.frame, initial.cam_from_world, initial.matches);

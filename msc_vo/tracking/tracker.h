@@ -13,6 +13,7 @@
 #include "msc_vo/tracking/keyframe_policy.h"
 #include "msc_vo/tracking/motion_model.h"
 #include "msc_vo/tracking/place_search.h"
+#include "msc_vo/tracking/plane_pose.h"
 #include "msc_vo/tracking/pose_factor_callback.h"
 #include "msc_vo/tracking/pose_plausibility.h"
 #include "msc_vo/tracking/search_budget.h"
@@ -91,6 +92,8 @@ class Tracker {
   // Without an initial pose: by the planes and the pose factors; std::nullopt if the frame does not
   // follow one with a pose, or matches no plane.
   std::optional<TrackedFrame> TrackByPlanes(const Input& input);
+  // What the last frame and the pose factors tell of the pose.
+  ExpectedPose ExpectPoseOf(const Input& input) const;
   // The frame with the predicted pose, predicted or lost.
   TrackedFrame BridgeWithPrediction(const Input& input) const;
   // Whether the map is given up, because it could not be found for too long.

@@ -59,13 +59,15 @@ TEST(PlaneExtractor, IsExactThroughAWideLens) {
   EXPECT_LT((planes[0].inverse_depth - kWall).norm(), 1e-4);
 }
 
-// Without a common error, the normalised squared error is chi-square with three degrees of freedom.
+// Without a common error, the normalised squared error is chi-square with three degrees of freedom,
+// by a quarter of the covariance: here, cells do not share errors with their neighbours.
 TEST(PlaneExtractor, HasTheCovarianceOfItsErrors) {
   const PinholeCamera camera;
   PlaneExtractorOptions options;
   PlaneExtractor extractor(options, camera, {});
   const cv::Mat exact =
       DrawDepth(camera, [&](const Vector2d& pixel) { return kWall.dot(camera.Ray(pixel)); });
+  const double kCommonSigma = 0.5 * options.inverse_depth_noise;
   double sum = 0.0;
   constexpr int kRuns = 40;
   for (int seed = 0; seed < kRuns; ++seed) {
@@ -75,9 +77,25 @@ TEST(PlaneExtractor, HasTheCovarianceOfItsErrors) {
     const auto planes = extractor.Extract(depth);
     ASSERT_EQ(planes.size(), 1u);
     const Vector3d error = planes[0].inverse_depth - kWall;
-    sum += error.dot(planes[0].covariance.inverse() * error);
+    const Eigen::Matrix3d covariance =
+        planes[0].covariance - std::pow(kCommonSigma, 2) * Eigen::Matrix3d::Identity();
+    sum += 4.0 * error.dot(covariance.inverse() * error);
   }
   EXPECT_NEAR(sum / kRuns / 3.0, 1.0, 0.3);
+}
+
+// A board in front of a wall is no part of it if the depth image is good enough to tell.
+TEST(PlaneExtractor, TellsSurfacesApartByTheNoiseOfTheImage) {
+  const PinholeCamera camera;
+  const cv::Rect board(200, 100, 160, 160);
+  cv::Mat depth(camera.height, camera.width, CV_32FC1, cv::Scalar(3.0));
+  depth(board) = 2.97f;  // 3.4e-3 1/m nearer
+  const auto exact = PlaneExtractor({}, camera, {}).Extract(depth);
+  ASSERT_EQ(exact.size(), 2u);
+  EXPECT_NEAR(exact[0].Distance(), 3.0, 1e-4);
+  EXPECT_NEAR(exact[1].Distance(), 2.97, 1e-4);
+  AddInverseDepthNoise(PlaneExtractorOptions().inverse_depth_noise, 1.41, 1, &depth);
+  EXPECT_EQ(PlaneExtractor({}, camera, {}).Extract(depth).size(), 1u);
 }
 
 TEST(PlaneExtractor, MissingDepthDoesNotMatter) {

@@ -55,7 +55,7 @@ TEST(MatchPlanes, DependsOnTheUncertaintyOfThePose) {
 
 // The rotation of a pose acts on its translation with a lever arm.
 TEST(MatchPlanes, TakesTheCovarianceInTheTangentOfThePose) {
-  const Rigid3 truth(ExpSO3({0.0, 0.1, 0.0}), {20.0, 0.0, 0.2});  // far from the world's origin
+  const Rigid3 truth(ExpSO3({0.0, 0.1, 0.0}), {60.0, 0.0, 0.2});  // far from the world's origin
   const Plane wall({0.0, 0.0, -1.0}, 2.0);
   const std::vector<PlaneFeature> features{FeatureOf(wall)};
   const MapPlanes map = MapOf({truth.Inverse() * wall});

@@ -76,7 +76,7 @@ TEST_F(PlanesTest, HoldTheCameraWherePointsAndLinesDoNot) {
 }
 
 TEST_F(PlanesTest, AreInTheResultWithTheirExtents) {
-  EXPECT_TRUE(Track({}).planes.empty());
+  EXPECT_TRUE(Track(WithoutPlanes()).planes.empty());
   const OdometryResult result = Track({});
   ASSERT_GE(result.planes.size(), 3u);  // two walls and the floor
   int num_large = 0;
@@ -116,6 +116,32 @@ TEST_F(PlanesTest, GiveTheSamePosesAtAnyNumberOfThreadsAndAfterACheckpoint) {
     EXPECT_EQ(parallel.frames[i].cam_from_world.params, expected.frames[i].cam_from_world.params);
     EXPECT_EQ(continued.frames[i].cam_from_world.params, expected.frames[i].cam_from_world.params);
   }
+}
+
+// The depth camera has its own light.
+class DarkImagesTest : public RoomTest {
+ protected:
+  static OdometryResult RunInTheDark(const OdometryOptions& options) {
+    std::vector<RgbdImage> images = *images_;
+    for (int i = kFirstDark; i < kFirstBright; ++i) Blacken(&images[i]);
+    Odometry odometry(options, camera_, LensDistortion());
+    for (const RgbdImage& image : images) odometry.Process(image);
+    return odometry.Finish();
+  }
+  static int NumEstimatedInTheDark(const OdometryResult& result) {
+    int count = 0;
+    for (int i = kFirstDark; i < kFirstBright; ++i) count += IsEstimated(result.frames[i].status);
+    return count;
+  }
+
+  static constexpr int kFirstDark = 20, kFirstBright = 50;
+};
+
+TEST_F(DarkImagesTest, HaveThePoseOfTheirPlanes) {
+  const OdometryResult with = RunInTheDark({}), without = RunInTheDark(WithoutPlanes());
+  EXPECT_EQ(NumEstimatedInTheDark(without), 0);
+  EXPECT_GE(NumEstimatedInTheDark(with), 25);
+  EXPECT_LT(ApeRmse(with), 0.005);
 }
 
 }  // namespace

@@ -40,8 +40,14 @@ inline std::vector<RgbdImage> RenderImages(const SyntheticSequenceOptions& optio
 }
 
 // A black image instead of `image`, whose pixels others may share.
-inline void Cover(RgbdImage* image) {
+inline void Blacken(RgbdImage* image) {
   image->gray = cv::Mat(image->gray.rows, image->gray.cols, CV_8UC1, cv::Scalar(0));
+}
+
+// A hand before both cameras: a black image without depth.
+inline void Cover(RgbdImage* image) {
+  Blacken(image);
+  image->depth = cv::Mat(image->depth.rows, image->depth.cols, image->depth.type(), cv::Scalar(0));
 }
 
 inline std::vector<TimedPose> TruePoses(const SyntheticSequenceOptions& options, int count) {

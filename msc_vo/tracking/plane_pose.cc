@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/tracking/plane_pose.h"
+
+#include "msc_vo/factors/pose_prior.h"
+#include "msc_vo/frame/feature_counts.h"
+#include "msc_vo/geometry/angles.h"
+#include "msc_vo/matching/plane_matcher.h"
+#include "msc_vo/pose_estimation/plane_factors.h"
+
+namespace msc_vo {
+
+namespace {
+
+// A hand-held camera may stop, turn and accelerate at any time: m/s, rad/s, m/s^2, rad/s^2.
+constexpr double kSpeedSigma = 0.5, kTurnSigma = 1.0;
+constexpr double kAccelerationSigma = 3.0, kTurnAccelerationSigma = 6.0;
+
+// A pose by few points states a third of its error (90 % quantile in hard scenes), or less.
+constexpr double kUnstatedError = 3.0;
+constexpr double kLeastRotationError = 0.3, kLeastTranslationError = 0.003;  // degrees, metres
+
+PoseCovariance CovarianceOfRest(double seconds) {
+  return IsotropicCovariance(kTurnSigma * seconds, kSpeedSigma * seconds);
+}
+
+PoseCovariance CovarianceOfConstantVelocity(double seconds) {
+  const double squared = seconds * seconds;
+  return IsotropicCovariance(kTurnAccelerationSigma * squared, kAccelerationSigma * squared);
+}
+
+}  // namespace
+
+ExpectedPose ExpectPose(const Rigid3& last_from_world, const PoseCovariance& last_covariance,
+                        double seconds, const std::optional<Rigid3>& velocity,
+                        double undetermined_seconds) {
+  const Rigid3 cam_from_last = velocity.value_or(Rigid3());
+  ExpectedPose expected;
+  expected.cam_from_world = cam_from_last * last_from_world;
+  expected.covariance = ComposeCovariances(
+      cam_from_last, velocity ? CovarianceOfConstantVelocity(seconds) : CovarianceOfRest(seconds),
+      last_from_world, last_covariance);
+  const PoseCovariance of_prior =
+      CovarianceOfCamera(expected.cam_from_world, CovarianceOfRest(undetermined_seconds));
+  expected.prior =
+      PoseFactor{"motion", PosePrior::CreateShared(expected.cam_from_world, of_prior), nullptr};
+  return expected;
+}
+
+std::optional<PlanePose> EstimateByPlanes(const TrackerOptions& options, const Frame& frame,
+                                          const MapSnapshot& snapshot, const ExpectedPose& expected,
+                                          const std::vector<PoseFactor>& factors) {
+  PlanePose pose;
+  pose.planes =
+      MatchPlanes(frame.planes, snapshot.planes, expected.cam_from_world, expected.covariance);
+  if (pose.planes.empty()) return std::nullopt;
+  pose.is_determined = DetermineAPose(frame, pose.planes);
+  if (!pose.is_determined && CanBeginMap(frame, options.min_initial_features)) return std::nullopt;
+  std::vector<PoseFactor> all = MakePlanePoseFactors(frame.planes, pose.planes, snapshot.planes);
+  all.insert(all.end(), factors.begin(), factors.end());
+  if (expected.prior && !pose.is_determined) all.push_back(*expected.prior);
+  FrameMatches none;
+  pose.cam_from_world = expected.cam_from_world;
+  pose.summary = EstimateFramePose(options.pose, frame, snapshot.map, snapshot.noise_scale, all,
+                                   &pose.cam_from_world, &none);
+  return pose.summary.usable ? std::make_optional(pose) : std::nullopt;
+}
+
+std::vector<PlaneMatch> MatchPlanesAt(const FramePose& pose, const Frame& frame,
+                                      const MapPlanes& map) {
+  const PoseCovariance least =
+      IsotropicCovariance(DegreesToRadians(kLeastRotationError), kLeastTranslationError);
+  return MatchPlanes(frame.planes, map, pose.cam_from_world,
+                     kUnstatedError * kUnstatedError * pose.summary.covariance +
+                         CovarianceOfCamera(pose.cam_from_world, least));
+}
+
+bool DetermineAPose(const Frame& frame, const std::vector<PlaneMatch>& matches) {
+  std::vector<PlaneFeature> matched;
+  for (const PlaneMatch& match : matches) matched.push_back(frame.planes[match.feature]);
+  return DetermineAPose(matched);
+}
+
+}  // namespace msc_vo

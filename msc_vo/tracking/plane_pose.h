@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "msc_vo/geometry/pose_covariance.h"
+#include "msc_vo/map/snapshot.h"
+#include "msc_vo/tracking/frame_pose.h"
+
+namespace msc_vo {
+
+/// What is known of the pose of a frame before its image (not in the paper).
+struct ExpectedPose {
+  Rigid3 cam_from_world;
+  PoseCovariance covariance = PoseCovariance::Zero();  ///< tangent of Rigid3Manifold
+  /// Holds the pose in the directions that planes leave free; none if custom factors do.
+  std::optional<PoseFactor> prior;
+};
+
+/// The pose behind one of a frame `seconds` before. `velocity`: the motion since then that constant
+/// velocity predicts, if it is known. `undetermined_seconds`: since the last frame whose pose was
+/// certain in all directions; the sigmas of the prior grow with it.
+ExpectedPose ExpectPose(const Rigid3& last_from_world, const PoseCovariance& last_covariance,
+                        double seconds, const std::optional<Rigid3>& velocity,
+                        double undetermined_seconds);
+
+/// A pose by planes, without points and lines.
+struct PlanePose {
+  Rigid3 cam_from_world;
+  PoseSummary summary;
+  std::vector<PlaneMatch> planes;
+  bool is_determined = false;  ///< in all directions, by the planes
+};
+
+/// Estimates the pose of a frame by its planes and by custom `factors`; std::nullopt if no plane is
+/// matched, or if the planes leave a direction free while the frame shows features, none of which
+/// could be matched: one floor is like another.
+std::optional<PlanePose> EstimateByPlanes(const TrackerOptions& options, const Frame& frame,
+                                          const MapSnapshot& snapshot, const ExpectedPose& expected,
+                                          const std::vector<PoseFactor>& factors);
+
+/// Matches the planes of a frame around a pose by points and lines.
+std::vector<PlaneMatch> MatchPlanesAt(const FramePose& pose, const Frame& frame,
+                                      const MapPlanes& map);
+
+/// Whether the matched planes determine a pose.
+bool DetermineAPose(const Frame& frame, const std::vector<PlaneMatch>& matches);
+
+}  // namespace msc_vo
