@@ -34,6 +34,19 @@ void CheckImage(const cv::Mat& image, int type, const PinholeCamera& camera, con
                               std::to_string(camera.width) + "x" + std::to_string(camera.height));
 }
 
+// Between the times of both images, the camera moves in a way that is not known, or was predicted
+// from the last two frames: of hand-held cameras, the velocity and its change in 1/30 s.
+void AddMotionNoise(const RgbdImage& image, std::vector<PlaneFeature>* planes) {
+  constexpr double kTurn = 1.0, kTurnChange = 0.2;    // radians/second
+  constexpr double kSpeed = 0.5, kSpeedChange = 0.1;  // metres/second
+  const double still = std::abs(image.depth_delay), moved = std::abs(image.depth_shift);
+  if (still == 0.0 && moved == 0.0) return;
+  for (PlaneFeature& plane : *planes) {
+    plane.AddMotionNoise(kTurn * still + kTurnChange * moved,
+                         kSpeed * still + kSpeedChange * moved);
+  }
+}
+
 }  // namespace
 
 void RunSequentially(const Tasks& tasks) {
@@ -189,7 +202,10 @@ Frame FrameBuilder::Build(const RgbdImage& image, const TaskRunner& run) {
     line_depth_ms = line_stopwatch.Restart();
   });
   if (state_->planes) {
-    tasks.push_back([&] { frame.planes = state_->planes->Extract(masked.depth); });
+    tasks.push_back([&] {
+      frame.planes = state_->planes->Extract(masked.depth);
+      AddMotionNoise(image, &frame.planes);
+    });
   }
   for (size_t l = 0; l < levels.size(); ++l) {
     tasks.push_back([&, l] { levels[l] = state_->BuildPointLevel(static_cast<int>(l)); });

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 
 #include <Eigen/Core>
@@ -42,6 +43,16 @@ struct PlaneFeature {
         extent.push_back(ray / inverse_depth.dot(ray));
     }
     return extent;
+  }
+
+  /// Adds the noise of an unknown motion of the camera: standard deviations of its rotation vector
+  /// (radians) and of its translation (metres).
+  void AddMotionNoise(double rotation_sigma, double translation_sigma) {
+    const Eigen::Vector3d normal = Normal();
+    const double closeness = inverse_depth.norm();
+    const Eigen::Matrix3d along = normal * normal.transpose();
+    covariance += std::pow(closeness * rotation_sigma, 2) * (Eigen::Matrix3d::Identity() - along) +
+                  std::pow(closeness * closeness * translation_sigma, 2) * along;
   }
 
   template <typename Archive>

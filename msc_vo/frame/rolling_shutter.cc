@@ -3,6 +3,11 @@
 
 #include "msc_vo/frame/rolling_shutter.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/LU>
+
 namespace msc_vo {
 
 namespace {
@@ -43,6 +48,26 @@ class RowMotion {
   double readout_time_;
 };
 
+// Fits the plane to where four of its points are moved, whose rays have its mean and its spread.
+void MovePlane(const PinholeCamera& camera, const RowMotion& motion, PlaneFeature* plane) {
+  const Eigen::Matrix3d& moments = plane->mean_square_ray;
+  const Eigen::Vector3d mean = moments.col(2);
+  Eigen::Matrix3d square_rays = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d rays_times_depth = Eigen::Vector3d::Zero();
+  for (int i = 0; i < 2; ++i) {
+    const double spread = std::sqrt(std::max(0.0, moments(i, i) - mean[i] * mean[i]));
+    for (const double side : {-spread, spread}) {
+      const Eigen::Vector3d ray = mean + side * Eigen::Vector3d::Unit(i);
+      double inverse_depth = plane->inverse_depth.dot(ray);
+      const Eigen::Vector3d moved = camera.Ray(motion.Moved(camera.Project(ray), &inverse_depth));
+      square_rays += moved * moved.transpose();
+      rays_times_depth += inverse_depth * moved;
+    }
+  }
+  const Eigen::Vector3d fitted = square_rays.inverse() * rays_times_depth;
+  if (fitted.allFinite()) plane->inverse_depth = fitted;
+}
+
 }  // namespace
 
 double RowPhase(const PinholeCamera& camera, const Eigen::Vector2d& pixel) {
@@ -73,6 +98,7 @@ Frame CompensateRollingShutter(const Frame& frame, const CameraVelocity& velocit
   ForEachFeatures(compensated, [&](auto& features) {
     for (auto& feature : features) feature.MovePixels(move);
   });
+  for (PlaneFeature& plane : compensated.planes) MovePlane(frame.camera, motion, &plane);
   compensated.grid = FeatureGrid(compensated.camera, compensated.points);
   return compensated;
 }

@@ -55,6 +55,7 @@ RgbdImage DepthPreparation::Align(const RgbdImage& image,
   if (image.depth_delay != 0.0 && velocity) {
     if (aligned.recorded_depth.empty()) aligned.recorded_depth = image.depth;
     aligned.depth = aligner_.Align(image.depth, velocity->Over(image.depth_delay));
+    aligned.depth_shift = image.depth_delay;
   }
   return aligned;
 }

@@ -17,6 +17,8 @@ struct RgbdImage {
   cv::Mat depth;           ///< CV_32FC1, metres along the optical axis; 0: no measurement
   /// Time of the depth image relative to that of the colour image, seconds.
   double depth_delay = 0.0;
+  /// Seconds by which `depth` was moved to the time of the colour image, with a predicted velocity.
+  double depth_shift = 0.0;
   /// The depth image as the sensor recorded it, if `depth` was registered to the colour image or
   /// aligned to its time, which changes its noise; otherwise empty.
   cv::Mat recorded_depth = {};
