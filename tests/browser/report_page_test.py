@@ -90,6 +90,18 @@ class ReportPageTest(unittest.TestCase):
         self.browser.press("8")
         self.assertEqual(self.browser.changed_pixels("scene-canvas"), 0)
 
+    def test_planes_are_a_layer_of_runs_with_planes(self):
+        self.assertFalse(self.browser.find("button[data-layer=planes]").is_displayed())
+        folder = self.report.with_name("with_planes")
+        subprocess.run([self.command, "replay", SEQUENCE, "--output", folder, "--planes", "--quiet"],
+                       check=True)
+        self.browser.driver.get((folder / "report.html").as_uri())
+        self.browser.settle()
+        self.assertTrue(self.browser.find("button[data-layer=planes]").is_displayed())
+        self.browser.changed_pixels("scene-canvas")
+        self.browser.click("button[data-layer=planes]")
+        self.assertGreater(self.browser.changed_pixels("scene-canvas"), 5_000)
+
     def open_changed(self, change):
         """Opens a copy of the report whose data block `change` has changed."""
         html = self.report.read_text()
