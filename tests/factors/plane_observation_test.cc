@@ -3,10 +3,9 @@
 
 #include "msc_vo/factors/plane_observation.h"
 
-#include "tests/support/factor_checks.h"
+#include "tests/factors/plane_block.h"
 
 #include "msc_vo/factors/plane_manifold.h"
-#include "msc_vo/geometry/plane.h"
 
 namespace msc_vo {
 namespace {
@@ -14,10 +13,6 @@ namespace {
 const PlaneManifold kManifold;
 const Eigen::Matrix3d kCovariance =
     (Eigen::Matrix3d() << 4e-5, 1e-5, -5e-6, 1e-5, 3e-5, 2e-6, -5e-6, 2e-6, 2e-5).finished();
-
-std::vector<double> Block(const Plane& plane) {
-  return {plane.params.data(), plane.params.data() + 4};
-}
 
 // A plane in front of the camera, which sees its front.
 Plane InView(RandomGeometry* random) {
