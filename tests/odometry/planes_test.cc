@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
 #include <cmath>
+#include <sstream>
 
 #include "tests/support/rendered_images.h"
 #include <gtest/gtest.h>
@@ -80,6 +81,7 @@ TEST_F(PlanesTest, AreInTheResultWithTheirExtents) {
   const OdometryResult result = Track({});
   ASSERT_GE(result.planes.size(), 3u);  // two walls and the floor
   int num_large = 0;
+  std::ostringstream areas;
   for (const MapPlane& plane : result.planes) {
     EXPECT_GE(plane.extent.size(), 3u);
     EXPECT_GE(plane.num_observations, 1);
@@ -89,9 +91,10 @@ TEST_F(PlanesTest, AreInTheResultWithTheirExtents) {
       area += 0.5 * plane.extent[i].cross(plane.extent[(i + 1) % plane.extent.size()]);
     }
     EXPECT_GT(area.dot(plane.plane.normal()), 0.0) << "counter-clockwise from the front";
+    areas << area.norm() << " ";
     num_large += area.norm() > 1.0;
   }
-  EXPECT_GE(num_large, 3);
+  EXPECT_GE(num_large, 3) << areas.str();
 }
 
 TEST_F(PlanesTest, GiveTheSamePosesAtAnyNumberOfThreadsAndAfterACheckpoint) {
