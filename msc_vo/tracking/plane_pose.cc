@@ -21,6 +21,10 @@ constexpr double kAccelerationSigma = 3.0, kTurnAccelerationSigma = 6.0;
 constexpr double kUnstatedError = 3.0;
 constexpr double kLeastRotationError = 0.3, kLeastTranslationError = 0.003;  // degrees, metres
 
+// Of an image of another place, in those that a map can begin with: blank walls have some tens of
+// false corners.
+constexpr int kManyFeatures = 5;
+
 PoseCovariance CovarianceOfRest(double seconds) {
   return IsotropicCovariance(kTurnSigma * seconds, kSpeedSigma * seconds);
 }
@@ -56,7 +60,8 @@ std::optional<PlanePose> EstimateByPlanes(const TrackerOptions& options, const F
       MatchPlanes(frame.planes, snapshot.planes, expected.cam_from_world, expected.covariance);
   if (pose.planes.empty()) return std::nullopt;
   pose.is_determined = DetermineAPose(frame, pose.planes);
-  if (!pose.is_determined && CanBeginMap(frame, options.min_initial_features)) return std::nullopt;
+  const int many = kManyFeatures * options.min_initial_features;
+  if (!pose.is_determined && CanBeginMap(frame, many)) return std::nullopt;
   std::vector<PoseFactor> all = MakePlanePoseFactors(frame.planes, pose.planes, snapshot.planes);
   all.insert(all.end(), factors.begin(), factors.end());
   if (expected.prior && !pose.is_determined) all.push_back(*expected.prior);

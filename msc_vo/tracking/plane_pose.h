@@ -36,8 +36,8 @@ struct PlanePose {
 };
 
 /// Estimates the pose of a frame by its planes and by custom `factors`; std::nullopt if no plane is
-/// matched, or if the planes leave a direction free while the frame shows features, none of which
-/// could be matched: one floor is like another.
+/// matched, or if the planes leave a direction free while the frame shows many features, none of
+/// which could be matched: one floor is like another.
 std::optional<PlanePose> EstimateByPlanes(const TrackerOptions& options, const Frame& frame,
                                           const MapSnapshot& snapshot, const ExpectedPose& expected,
                                           const std::vector<PoseFactor>& factors);
