@@ -18,9 +18,9 @@ namespace msc_vo {
 
 namespace {
 
-// Largest error of inverse depth that the pose may add, 1/metres: 8 cm at 2 m. A wider search finds
-// other surfaces of a room.
-constexpr double kMaxPoseSigma = 0.02;
+// Largest error that the pose may add, in parts of the distance of the plane: 10 cm at 2 m. A wider
+// search finds other surfaces of a room.
+constexpr double kMaxPoseError = 0.05;
 constexpr double kMaxSigmas = 3.0;
 constexpr double kMaxAngle = 8.0;  // degrees
 // Nearest plane, metres: the inverse depths of nearer ones are not defined.
@@ -69,9 +69,8 @@ double Unlikelihood(const PlaneFeature& feature, const Plane& in_cam, double noi
   if (in_cam.offset() < kMinDistance || in_cam.normal().dot(feature.Normal()) <= 0.0) return kNever;
   const auto jacobian = JacobianOfPose(in_cam, cam_from_world.translation());
   const Eigen::Matrix3d of_pose = jacobian * covariance * jacobian.transpose();
-  if (feature.mean_square_ray.cwiseProduct(of_pose).sum() > kMaxPoseSigma * kMaxPoseSigma) {
-    return kNever;
-  }
+  const double max_sigma = kMaxPoseError / in_cam.offset();
+  if (feature.mean_square_ray.cwiseProduct(of_pose).sum() > max_sigma * max_sigma) return kNever;
   const Eigen::LLT<Eigen::Matrix3d> sum(of_pose + 2.0 * noise * noise * feature.covariance);
   const Eigen::Vector3d difference = InverseDepth(in_cam) - feature.inverse_depth;
   const double squared = difference.dot(sum.solve(difference));

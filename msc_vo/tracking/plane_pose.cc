@@ -61,7 +61,7 @@ std::optional<PlanePose> EstimateByPlanes(const TrackerOptions& options, const F
   if (pose.planes.empty()) return std::nullopt;
   pose.is_determined = DetermineAPose(frame, pose.planes);
   const int many = kManyFeatures * options.min_initial_features;
-  if (!pose.is_determined && CanBeginMap(frame, many)) return std::nullopt;
+  if (!pose.is_determined && NumWithDepth(frame) >= many) return std::nullopt;
   std::vector<PoseFactor> all = MakePlanePoseFactors(frame.planes, pose.planes, snapshot.planes);
   all.insert(all.end(), factors.begin(), factors.end());
   if (expected.prior && !pose.is_determined) all.push_back(*expected.prior);

@@ -92,7 +92,7 @@ TEST_F(PlanesTest, AreInTheResultWithTheirExtents) {
     }
     EXPECT_GT(area.dot(plane.plane.normal()), 0.0) << "counter-clockwise from the front";
     areas << area.norm() << " ";
-    num_large += area.norm() > 1.0;
+    num_large += area.norm() > 0.5;
   }
   EXPECT_GE(num_large, 3) << areas.str();
 }
