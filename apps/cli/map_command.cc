@@ -44,7 +44,7 @@ void PrintInfo(const std::string& file) {
   for (const MapFileSummary::SubMap& submap : summary.submaps) {
     std::cout << "submap " << submap.id << ": " << submap.num_keyframes << " keyframes, "
               << submap.num_points << " points, " << submap.num_lines << " lines"
-              << (submap.num_planes > 0 ? FormatText(", %d planes", submap.num_planes) : "")
+              << (submap.num_planes > 0 ? ", " + std::to_string(submap.num_planes) + " planes" : "")
               << "\n";
   }
   std::cout << summary.num_loop_edges << " loop edges" << std::endl;

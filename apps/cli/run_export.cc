@@ -199,7 +199,8 @@ void CheckExport(const RunExport& arguments, const RgbdDecoder& sequence) {
 void WriteExport(const RunExport& arguments) {
   if (IsMapFormat(arguments.format)) return WriteMapExport(arguments);
   std::vector<std::string> inputs = {TrajectoryPath(arguments.run)};
-  for (const char* name : {"frames.csv", "lines.ply", "map.ply", "sequence.json", "summary.json"}) {
+  for (const char* name :
+       {"frames.csv", "lines.ply", "map.ply", "planes.ply", "sequence.json", "summary.json"}) {
     inputs.push_back(FileOf(arguments.run, name));
   }
   if (!arguments.map.empty()) inputs.push_back(arguments.map);

@@ -36,7 +36,7 @@ void RemoveResultFiles(const std::string& directory);
 /// are planes, planes.ply, then what only helps: with ground truth, groundtruth.txt; report.html.
 /// Creates `directory` if necessary. A file that cannot be written does not keep the others from
 /// being written. A file is replaced only once its new contents are complete, unless the disk is
-/// full. `make_room`: called if it is, for one of the first six; may be empty. Returns why files of
+/// full. `make_room`: called if it is, for one of these; may be empty. Returns why files of
 /// the second kind could not be written; empty if all are. Throws std::runtime_error naming the
 /// files of the first kind that could not be written.
 [[nodiscard]] std::string WriteResultFiles(const std::string& directory,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 #include <Eigen/Cholesky>
@@ -98,7 +99,10 @@ void ReadObservations(std::string_view bytes, LandmarkId plane, SavedSubMap* sub
   BlobReader blob(bytes);
   KeyframeId id = 0;
   while (!blob.AtEnd()) {
-    id += blob.Varint();
+    const int64_t step = blob.Varint();
+    Require(step >= 0 && step <= std::numeric_limits<KeyframeId>::max() - id,
+            "its keyframes are not in order");
+    id += step;
     const int64_t feature = blob.Varint();
     const Keyframe* const keyframe = submap->map.FindKeyframe(id);
     Require(keyframe != nullptr, "a keyframe that observes it is not in its submap");
