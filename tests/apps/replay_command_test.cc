@@ -320,7 +320,7 @@ TEST_F(ReplayCommandTest, FailsWithCausesWithoutEstimatedPoses) {
 TEST_F(ReplayCommandTest, ExcludesUnestimatedPosesFromCoverage) {
   Synthesize(10);
   Blacken("room", 7, 10);
-  const CommandOutcome outcome = Replay("out");
+  const CommandOutcome outcome = Replay("out", {"--no-planes"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
   EXPECT_THAT(outcome.output, Names("3 black", "70.0 %"));
   EXPECT_EQ(Summary("out")["error"]["coverage"], 0.7);

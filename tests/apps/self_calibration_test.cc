@@ -21,7 +21,9 @@ class SelfCalibrationTest : public TemporaryFolder {
     RenderSequence(Path(name), arguments);
   }
   nlohmann::json Replay(const std::string& name, const std::vector<std::string>& more = {}) {
-    std::vector<std::string> command = {"replay", Path(name), "--output", Path("out")};
+    // With planes, evidence against the calibration grows too slowly for so short a sequence.
+    std::vector<std::string> command = {"replay", Path(name), "--no-planes", "--output",
+                                        Path("out")};
     command.insert(command.end(), more.begin(), more.end());
     const CommandOutcome outcome = RunCommand(command);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.output;

@@ -206,8 +206,7 @@ class Results(unittest.TestCase):
 
 
     def test_planes_have_extents_and_axes(self):
-        self.assertEqual(len(support.room_result().planes), 0)  # not used unless asked for
-        odometry = support.room_odometry(use_planes=True)
+        odometry = support.room_odometry()
         support.process(odometry, support.room_images())
         result = odometry.finish()
         self.assertGreater(len(result.planes), 2)
