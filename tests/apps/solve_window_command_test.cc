@@ -56,8 +56,9 @@ std::string PoseText(const Rigid3& cam_from_world) {
 
 TEST_F(SolveWindowCommandTest, ReproducesTheMapper) {
   RenderSequence(Path("room"), {"--scene", "room", "--frames", "40", "--width", "160"});
-  const CommandOutcome replay = RunCommand({"replay", "--no-planes", Path("room"), "--output", Path("out"),
-                                            "--quiet", "--dump-windows", Path("windows")});
+  const CommandOutcome replay =
+      RunCommand({"replay", "--no-planes", Path("room"), "--output", Path("out"), "--quiet",
+                  "--dump-windows", Path("windows")});
   ASSERT_EQ(replay.exit_code, 0) << replay.output;
   const std::vector<std::string> files = FilesIn("windows");
   ASSERT_GE(files.size(), 2u);
