@@ -40,7 +40,7 @@ constexpr double kMaxDifference = 3.0;
 // That random part, in lower quartiles of the residuals of the cells: a cell hides what is common
 // to its pixels.
 constexpr double kNoiseOfQuartile = 2.0;
-// Walls are not flatter, nor sums of single precision more exact, 1/metres: 0.8 mm at 2 m.
+// Walls are not flatter, 1/metres: 0.8 mm at 2 m.
 constexpr double kFlatness = 2e-4;
 // Rounds in which cells that do not lie on the plane of their region leave it.
 constexpr int kTrimRounds = 3;
@@ -48,6 +48,9 @@ constexpr int kTrimRounds = 3;
 constexpr double kCellsOfOneError = 4.0;
 // Error that all cells of a plane have in common, in sigmas of the random part.
 constexpr double kCommonPart = 0.5;
+// Errors of focal lengths and principal point of a camera that counts as calibrated
+// (calibration_evidence.cc), in focal lengths: they tilt all planes but those across the axis.
+constexpr double kCalibrationError = 0.005;
 // Cells of a row that are summed at once.
 constexpr int kLanes = 8;
 using Lanes = Eigen::Array<float, kLanes, 1>;
@@ -58,27 +61,65 @@ Vector3d Solve(const Matrix3d& a, const Vector3d& b) { return a.inverse() * b; }
 
 }  // namespace
 
-// Sums over the pixels of one cell or several: of b b^T, b w and w^2, with ray b and inverse depth
-// w.
+// Sums over the pixels of one cell or several, of b b^T and b w with ray b and inverse depth w, and
+// the plane that they fit.
 struct PlaneExtractor::Cell {
   Matrix3d square_rays = Matrix3d::Zero();
   Vector3d rays_times_depth = Vector3d::Zero();
-  double square_depth = 0.0;
   int count = 0;
-  Vector3d inverse_depth = Vector3d::Zero();                  // of the plane; 1/metres
-  double residual = std::numeric_limits<double>::infinity();  // root mean square, 1/metres
+  Vector3d inverse_depth = Vector3d::Zero();  // of the plane; 1/metres
+  // Of a single cell: root mean square, 1/metres.
+  double residual = std::numeric_limits<double>::infinity();
   bool taken = false;
 
   void Add(const Cell& other) {
     square_rays += other.square_rays;
     rays_times_depth += other.rays_times_depth;
-    square_depth += other.square_depth;
     count += other.count;
   }
-  void Fit() {
-    inverse_depth = Solve(square_rays, rays_times_depth);
-    const double squares = square_depth - inverse_depth.dot(rays_times_depth);
-    residual = std::sqrt(std::max(0.0, squares) / count);
+  void Fit() { inverse_depth = Solve(square_rays, rays_times_depth); }
+};
+
+// Sums over the pixels of neighbouring cells, each in its lane, relative to the ray and the inverse
+// depth of a pixel of the cell: single precision would lose the residuals of near surfaces.
+struct PlaneExtractor::CellSums {
+  Lanes count = Lanes::Zero();
+  Lanes xx = count, xy = count, yy = count, x = count, y = count;
+  Lanes xw = count, yw = count, w = count, ww = count;
+
+  void Add(const Lanes& is_valid, const Lanes& ray_x, const Lanes& ray_y,
+           const Lanes& inverse_depth) {
+    const Lanes valid_x = is_valid * ray_x, valid_y = is_valid * ray_y;
+    const Lanes valid_w = is_valid * inverse_depth;
+    count += is_valid;
+    x += valid_x;
+    y += valid_y;
+    xx += valid_x * ray_x;
+    xy += valid_x * ray_y;
+    yy += valid_y * ray_y;
+    w += valid_w;
+    xw += valid_w * ray_x;
+    yw += valid_w * ray_y;
+    ww += valid_w * inverse_depth;
+  }
+
+  // The cell of lane k, whose ray and inverse depth are those that the sums are relative to.
+  Cell MakeCell(int k, const Vector2d& ray, double inverse_depth) const {
+    Matrix3d square_rays;
+    square_rays << xx[k], xy[k], x[k], xy[k], yy[k], y[k], x[k], y[k], count[k];
+    const Vector3d rays_times_depth(xw[k], yw[k], w[k]);
+    const Vector3d rays = square_rays.col(2);
+    const Vector3d plane = Solve(square_rays, rays_times_depth);
+    const Vector3d shift(ray.x(), ray.y(), 0.0);
+    Cell cell;
+    cell.count = static_cast<int>(count[k]);
+    cell.residual = std::sqrt(std::max(0.0, ww[k] - plane.dot(rays_times_depth)) / cell.count);
+    cell.inverse_depth = plane + (inverse_depth - plane.dot(shift)) * Vector3d::UnitZ();
+    cell.square_rays = square_rays + shift * rays.transpose() + rays * shift.transpose() +
+                       cell.count * shift * shift.transpose();
+    cell.rays_times_depth =
+        rays_times_depth + inverse_depth * rays + (w[k] + cell.count * inverse_depth) * shift;
+    return cell;
   }
 };
 
@@ -125,15 +166,18 @@ void PlaneExtractor::ComputeRays(const LensDistortion& distortion) {
   rays_x_.assign(size, 0.0f);
   rays_y_.assign(size, 0.0f);
   max_depth_.assign(size, 0.0f);
+  first_rays_.assign(cells_.size(), Vector2d::Zero());
   for (int cell = 0; cell < columns_ * rows_; ++cell) {
     const int column = cell % columns_, row = cell / columns_;
+    bool is_first = true;
     for (int i = 0; i < per_side * per_side; ++i) {
       const Vector2d ray = ray_of({column * cell_size_ + (i % per_side) * step_,
                                    row * cell_size_ + (i / per_side) * step_});
       if (!ray.allFinite()) continue;
+      if (std::exchange(is_first, false)) first_rays_[cell] = ray;
       const size_t index = FirstRay(row, column / kLanes) + i * kLanes + column % kLanes;
-      rays_x_[index] = static_cast<float>(ray.x());
-      rays_y_[index] = static_cast<float>(ray.y());
+      rays_x_[index] = static_cast<float>(ray.x() - first_rays_[cell].x());
+      rays_y_[index] = static_cast<float>(ray.y() - first_rays_[cell].y());
       max_depth_[index] = static_cast<float>(options_.max_depth);
     }
   }
@@ -207,17 +251,30 @@ void PlaneExtractor::FitCells(const cv::Mat& depth) {
   }
 }
 
+// The first valid inverse depth of a cell, 1/metres; 0 if there is none.
+float PlaneExtractor::FirstInverseDepth(const cv::Mat& depth, int row, int column) const {
+  for (int y = row * cell_size_; y < (row + 1) * cell_size_; y += step_) {
+    const float* z = depth.ptr<float>(y) + column * cell_size_;
+    for (int x = 0; x < cell_size_; x += step_) {
+      if (z[x] >= options_.min_depth && z[x] <= options_.max_depth) return 1.0f / z[x];
+    }
+  }
+  return 0.0f;
+}
+
 // Each cell is summed pixel by pixel, in its lane.
 void PlaneExtractor::FitGroup(const cv::Mat& depth, int row, int group) {
   const int per_side = cell_size_ / step_;
   std::array<int, kLanes> first_pixels;  // of the cells in an image row
+  Lanes first_depth;
   for (int k = 0; k < kLanes; ++k) {
-    first_pixels[k] = std::min(group * kLanes + k, columns_ - 1) * cell_size_;
+    const int column = std::min(group * kLanes + k, columns_ - 1);
+    first_pixels[k] = column * cell_size_;
+    first_depth[k] = FirstInverseDepth(depth, row, column);
   }
   const auto nearest = static_cast<float>(options_.min_depth);
   size_t ray = FirstRay(row, group);
-  Lanes count = Lanes::Zero(), xx = count, xy = count, yy = count, x = count, y = count;
-  Lanes xw = count, yw = count, w = count, ww = count;
+  CellSums sums;
   for (int v = 0; v < per_side; ++v) {
     const float* image_row = depth.ptr<float>(row * cell_size_ + v * step_);
     for (int u = 0; u < per_side; ++u, ray += kLanes) {
@@ -226,34 +283,16 @@ void PlaneExtractor::FitGroup(const cv::Mat& depth, int row, int group) {
         const float z = image_row[first_pixels[k] + u * step_];
         const bool valid = (z >= nearest) & (z <= max_depth_[ray + k]);
         is_valid[k] = valid ? 1.0f : 0.0f;
-        inverse_depth[k] = is_valid[k] / (valid ? z : 1.0f);
+        inverse_depth[k] = 1.0f / (valid ? z : 1.0f) - first_depth[k];
       }
-      const Eigen::Map<const Lanes> ray_x(&rays_x_[ray]), ray_y(&rays_y_[ray]);
-      const Lanes valid_x = is_valid * ray_x, valid_y = is_valid * ray_y;
-      count += is_valid;
-      x += valid_x;
-      y += valid_y;
-      xx += valid_x * ray_x;
-      xy += valid_x * ray_y;
-      yy += valid_y * ray_y;
-      w += inverse_depth;
-      xw += inverse_depth * ray_x;
-      yw += inverse_depth * ray_y;
-      ww += inverse_depth * inverse_depth;
+      sums.Add(is_valid, Eigen::Map<const Lanes>(&rays_x_[ray]),
+               Eigen::Map<const Lanes>(&rays_y_[ray]), inverse_depth);
     }
   }
   for (int k = 0; k < std::min(kLanes, columns_ - group * kLanes); ++k) {
-    Cell cell;
-    cell.count = static_cast<int>(count[k]);
-    if (cell.count >= kMinDepthRatio * per_side * per_side) {
-      cell.square_rays << xx[k], xy[k], x[k], xy[k], yy[k], y[k], x[k], y[k], count[k];
-      cell.rays_times_depth << xw[k], yw[k], w[k];
-      cell.square_depth = ww[k];
-      cell.Fit();
-    } else {
-      cell = Cell();
-    }
-    cells_[static_cast<size_t>(row) * columns_ + group * kLanes + k] = cell;
+    const size_t index = static_cast<size_t>(row) * columns_ + group * kLanes + k;
+    const bool has_depth = sums.count[k] >= kMinDepthRatio * per_side * per_side;
+    cells_[index] = has_depth ? sums.MakeCell(k, first_rays_[index], first_depth[k]) : Cell();
   }
 }
 
@@ -341,6 +380,9 @@ PlaneFeature PlaneExtractor::MakeFeature(const Cell& region, const std::vector<i
   plane.inverse_depth = region.inverse_depth;
   plane.covariance = kCellsOfOneError * variance * square_rays.inverse() +
                      std::pow(kCommonPart * noise_, 2) * Matrix3d::Identity();
+  const Vector3d tilt(plane.inverse_depth.x(), plane.inverse_depth.y(),
+                      plane.inverse_depth.head<2>().norm());
+  plane.covariance.diagonal() += (kCalibrationError * tilt).cwiseAbs2();
   plane.mean_square_ray = region.square_rays / region.count;
   plane.num_pixels = region.count * step_ * step_;
   plane.hull = Hull(cells);

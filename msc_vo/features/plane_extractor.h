@@ -44,12 +44,14 @@ class PlaneExtractor {
 
  private:
   struct Cell;
+  struct CellSums;
 
   void ComputeRays(const LensDistortion& distortion);
   double NoiseOfCells() const;
   void FitCells(const cv::Mat& depth);
   void FitGroup(const cv::Mat& depth, int row, int group);
   size_t FirstRay(int row, int group) const;
+  float FirstInverseDepth(const cv::Mat& depth, int row, int column) const;
   std::vector<int> Grow(int seed, Cell* region);
   bool LiesOn(const Cell& cell, const Eigen::Vector3d& inverse_depth) const;
   PlaneFeature MakeFeature(const Cell& region, const std::vector<int>& cells) const;
@@ -61,9 +63,10 @@ class PlaneExtractor {
   int step_ = 0;       // between the pixels that are used
   int columns_ = 0, rows_ = 0;
   int groups_ = 0;  // of neighbouring cells in a row, which are fitted together
-  // x / z and y / z of the pixels that are used, and the largest depth that is valid there, 0 where
-  // the pixel does not belong to the undistorted image: for each group of cells and each pixel of a
-  // cell, one value per cell of the group.
+  std::vector<Eigen::Vector2d> first_rays_;  // of each cell: x / z and y / z of its first pixel
+  // x / z and y / z of the pixels that are used, relative to the first ray of the cell, and the
+  // largest depth that is valid there, 0 where the pixel does not belong to the undistorted image:
+  // for each group of cells and each pixel of a cell, one value per cell of the group.
   std::vector<float> rays_x_, rays_y_, max_depth_;
   // x / z and y / z of the corners of the cells; NaN if they do not belong to the undistorted
   // image.

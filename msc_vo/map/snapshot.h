@@ -40,9 +40,12 @@ struct MapSnapshot {
   double readout_time = 0.0;  ///< seconds, of the rolling-shutter compensation of its keyframes
   /// Calibration of its keyframes, which frames must have that are tracked in it; null: unknown.
   std::shared_ptr<const CameraIntrinsics> intrinsics;
-  std::optional<AxesEstimate> axes;      ///< std::nullopt until they are found
-  bool needs_axes = false;               ///< the next keyframe packet shall contain surface normals
-  bool calibration_is_settled = false;   ///< self-calibration needs no further images
+  std::optional<AxesEstimate> axes;     ///< std::nullopt until they are found
+  bool needs_axes = false;              ///< the next keyframe packet shall contain surface normals
+  bool calibration_is_settled = false;  ///< self-calibration needs no further images
+  /// Images speak against the focal length or the lens: planes of depth images, which depend on
+  /// them, hide the evidence, and support points and lines only once it is gone.
+  bool calibration_is_doubted = false;
   InactiveMaps inactive_maps;            ///< of older segments that are not joined with this map
   std::vector<ExtraBlock> extra_blocks;  ///< as its windows have estimated them, in order of ids
 
@@ -54,8 +57,8 @@ struct MapSnapshot {
   template <typename Archive>
   void Serialize(Archive& archive) {
     archive.Fields(*this, map, planes, world, newest_keyframe, num_loops, noise_scale, readout_time,
-                   intrinsics, axes, needs_axes, calibration_is_settled, inactive_maps,
-                   extra_blocks);
+                   intrinsics, axes, needs_axes, calibration_is_settled, calibration_is_doubted,
+                   inactive_maps, extra_blocks);
   }
 };
 using MapSnapshotPtr = std::shared_ptr<const MapSnapshot>;

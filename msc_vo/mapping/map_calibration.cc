@@ -52,6 +52,7 @@ void MapCalibration::ChangeMap(Map* map) const {
 
 void MapCalibration::Describe(MapSnapshot* snapshot) const {
   snapshot->readout_time = readout_time_;
+  snapshot->calibration_is_doubted = IsDoubted();
   if (!intrinsics_) return;
   snapshot->intrinsics = intrinsics_->present();
   snapshot->calibration_is_settled = intrinsics_->IsSettled();

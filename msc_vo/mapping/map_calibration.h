@@ -50,6 +50,8 @@ class MapCalibration {
   const ReadoutTimeEstimator& readout() const { return readout_; }
   /// None before Begin().
   const std::optional<CalibrationEstimator>& intrinsics() const { return intrinsics_; }
+  /// See CalibrationEstimator; false if the calibration is not estimated.
+  bool IsDoubted() const { return intrinsics_ && intrinsics_->IsDoubted(); }
 
   /// Lists the state for a checkpoint.
   template <typename Archive>

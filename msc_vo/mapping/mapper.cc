@@ -154,8 +154,9 @@ void Mapper::UpdateAxes(KeyframeTask* task) {
 void Mapper::BeginWindow(KeyframeTask* task) {
   MappingSummary& summary = task->summary_;
   double milliseconds = 0.0;
-  task->window_ = Timed(
-      &milliseconds, [&] { return optimizer_.BeginWindow(summary.keyframe, &atlas_.current()); });
+  task->window_ = Timed(&milliseconds, [&] {
+    return optimizer_.BeginWindow(summary.keyframe, !calibration_.IsDoubted(), &atlas_.current());
+  });
   if (task->window_) summary.times.window = milliseconds;
 }
 

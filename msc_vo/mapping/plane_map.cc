@@ -56,7 +56,8 @@ void PlaneMap::AddKeyframe(const Map& map, KeyframeId keyframe, const PoseCovari
   const std::vector<PlaneFeature>& features = added.frame->planes;
   if (features.empty()) return;
   std::vector<PlaneMatch> matches =
-      MatchPlanes(features, InWorld(map), added.cam_from_world, covariance);
+      MatchPlanes(features, InWorld(map), added.cam_from_world,
+                  CovarianceForMatching(added.cam_from_world, covariance));
   std::vector<bool> is_known(features.size(), false);
   for (const PlaneMatch& match : matches) is_known[match.feature] = true;
   for (size_t i = 0; i < features.size(); ++i) {

@@ -28,13 +28,14 @@ bool WindowOptimizer::IsDue(double timestamp) const {
   return std::abs(timestamp - last_time_) >= options_.min_window_interval;
 }
 
-std::unique_ptr<WindowTask> WindowOptimizer::BeginWindow(KeyframeId keyframe, SubMap* submap) {
+std::unique_ptr<WindowTask> WindowOptimizer::BeginWindow(KeyframeId keyframe, bool use_planes,
+                                                         SubMap* submap) {
   if (!IsDue(submap->map.FindKeyframe(keyframe)->frame->timestamp)) return nullptr;
-  const bool has_other_links = factor_callback_ || !submap->planes.empty();
+  const bool has_other_links = factor_callback_ || (use_planes && !submap->planes.empty());
   const WindowLinks links =
       has_other_links ? WindowLinks::kLandmarksAndTime : WindowLinks::kLandmarks;
   return Begin(options_.window, keyframe,
-               SelectWindow(options_.selection, submap->map, keyframe, links), submap);
+               SelectWindow(options_.selection, submap->map, keyframe, links), use_planes, submap);
 }
 
 BundleAdjustmentSummary WindowOptimizer::EndWindow(KeyframeId keyframe, const WindowTask& task,
@@ -49,7 +50,7 @@ void WindowOptimizer::OptimizeMap(KeyframeId keyframe, SubMap* submap) {
   options.first_iterations = kCalibrationIterations;
   options.second_iterations = kCalibrationIterations;
   const std::unique_ptr<WindowTask> task =
-      Begin(options, keyframe, SelectSession(options_.selection, submap->map), submap);
+      Begin(options, keyframe, SelectSession(options_.selection, submap->map), false, submap);
   if (task == nullptr) return;
   while (task->Advance()) continue;
   WriteResult(*task, submap);
@@ -57,7 +58,7 @@ void WindowOptimizer::OptimizeMap(KeyframeId keyframe, SubMap* submap) {
 
 std::unique_ptr<WindowTask> WindowOptimizer::Begin(const BundleAdjustmentOptions& options,
                                                    KeyframeId keyframe, WindowData window,
-                                                   SubMap* submap) {
+                                                   bool use_planes, SubMap* submap) {
   last_lines_.clear();
   for (const WindowData::Line& line : window.lines) last_lines_.insert(line.id);
   if (window.keyframes.size() < 2) return nullptr;
@@ -67,7 +68,7 @@ std::unique_ptr<WindowTask> WindowOptimizer::Begin(const BundleAdjustmentOptions
   pairs_.Learn(pairs);
   pairs_.Add(pairs, &window);
   if (factor_callback_) AddCustomFactors(*submap, &window);
-  submap->planes.AddTo(submap->map, &window);
+  if (use_planes) submap->planes.AddTo(submap->map, &window);
   if (factor_callback_ || !window.custom_factors.empty()) FixUnlinkedKeyframes(&window);
   if (observer_) observer_(keyframe, options, window);
   return std::unique_ptr<WindowTask>(new WindowTask(options, std::move(window)));

@@ -51,7 +51,8 @@ class WindowOptimizer {
 
   /// Begins to optimise the window around `keyframe`, the newest one, if it is due. nullptr if it
   /// is not, or has a single keyframe. The submap must not change until EndWindow().
-  std::unique_ptr<WindowTask> BeginWindow(KeyframeId keyframe, SubMap* submap);
+  /// `use_planes`: with the factors of its planes.
+  std::unique_ptr<WindowTask> BeginWindow(KeyframeId keyframe, bool use_planes, SubMap* submap);
   /// Writes the result of all slices back.
   BundleAdjustmentSummary EndWindow(KeyframeId keyframe, const WindowTask& task, SubMap* submap);
   /// Bundle adjustment of all keyframes of a submap after a change of its calibration; the newest
@@ -79,7 +80,7 @@ class WindowOptimizer {
   bool IsDue(double timestamp) const;
   // nullptr if the window has a single keyframe.
   std::unique_ptr<WindowTask> Begin(const BundleAdjustmentOptions& options, KeyframeId keyframe,
-                                    WindowData window, SubMap* submap);
+                                    WindowData window, bool use_planes, SubMap* submap);
   void WriteResult(const WindowTask& task, SubMap* submap);
   // Adds the factors of the callback, the extra blocks and the axes that they may use.
   void AddCustomFactors(const SubMap& submap, WindowData* window) const;

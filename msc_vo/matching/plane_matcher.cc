@@ -21,6 +21,9 @@ namespace {
 // Largest error that the pose may add, in parts of the distance of the plane: 10 cm at 2 m. A wider
 // search finds other surfaces of a room.
 constexpr double kMaxPoseError = 0.05;
+// A pose by few points states a third of its error (90 % quantile in hard scenes), or less.
+constexpr double kUnstatedError = 3.0;
+constexpr double kLeastRotationError = 0.3, kLeastTranslationError = 0.003;  // degrees, metres
 constexpr double kMaxSigmas = 3.0;
 constexpr double kMaxAngle = 8.0;  // degrees
 // Nearest plane, metres: the inverse depths of nearer ones are not defined.
@@ -104,6 +107,12 @@ std::vector<PlaneMatch> MatchPlanes(const std::vector<PlaneFeature>& features, c
     if (match.plane != kNoId) matches.push_back(match);
   }
   return matches;
+}
+
+PoseCovariance CovarianceForMatching(const Rigid3& cam_from_world, const PoseCovariance& stated) {
+  const PoseCovariance least =
+      IsotropicCovariance(DegreesToRadians(kLeastRotationError), kLeastTranslationError);
+  return kUnstatedError * kUnstatedError * stated + CovarianceOfCamera(cam_from_world, least);
 }
 
 bool AreSamePlane(const PlaneFeature& feature, const PlaneLandmark& a, const PlaneLandmark& b,

@@ -19,6 +19,11 @@ namespace msc_vo {
 std::vector<PlaneMatch> MatchPlanes(const std::vector<PlaneFeature>& features, const MapPlanes& map,
                                     const Rigid3& cam_from_world, const PoseCovariance& covariance);
 
+/// The covariance (tangent of Rigid3Manifold) to match planes with, at a pose that was estimated
+/// from points and lines with a stated one: three times its sigmas, and at least 0.3 degrees and 3
+/// mm, because few points state too little.
+PoseCovariance CovarianceForMatching(const Rigid3& cam_from_world, const PoseCovariance& stated);
+
 /// Whether two planes, in the camera frame, differ by less than three sigmas of a feature that
 /// observes one of them: where it was seen, and at the vertices of both extents, whose depth is
 /// taken to be known as well as that of the feature. `noise`: MapPlanes::noise.

@@ -185,6 +185,15 @@ bool CalibrationEstimator::Update(const Map& map, KeyframeId newest,
   return false;
 }
 
+bool CalibrationEstimator::IsDoubted() const {
+  constexpr CorrectionGroup kGroups[] = {CorrectionGroup::kFocalLength, CorrectionGroup::kLens};
+  return std::any_of(std::begin(kGroups), std::end(kGroups), [this](CorrectionGroup group) {
+    const auto g = static_cast<size_t>(group);
+    return pairs_.num_added() > 0 && !estimate_.is_corrected[g] &&
+           estimate_.log_odds[g] > std::log(kDoubtedOdds);
+  });
+}
+
 CorrectionEstimate CalibrationEstimator::estimate() const {
   CorrectionEstimate estimate = estimate_;
   estimate.sigma = WithRegistrationErrors(estimate.sigma);

@@ -20,6 +20,8 @@ constexpr std::array<CorrectionGroup, 3> kColorGroups = {
 /// is asked. The largest odds for the focal length of sequences that are described well and
 /// determine it are 0.1 (docs/lab/self_calibration.md).
 constexpr double kCandidateOdds = 0.3;
+/// Posterior odds above which a calibration is doubted: twice those before any image.
+constexpr double kDoubtedOdds = 0.2;
 /// Posterior odds above which a correction is accepted. Chosen by measurement, see
 /// docs/lab/self_calibration.md.
 constexpr double kAcceptedOdds = 20.0;

@@ -5,7 +5,6 @@
 
 #include "msc_vo/factors/pose_prior.h"
 #include "msc_vo/frame/feature_counts.h"
-#include "msc_vo/geometry/angles.h"
 #include "msc_vo/matching/plane_matcher.h"
 #include "msc_vo/pose_estimation/plane_factors.h"
 
@@ -16,10 +15,6 @@ namespace {
 // A hand-held camera may stop, turn and accelerate at any time: m/s, rad/s, m/s^2, rad/s^2.
 constexpr double kSpeedSigma = 0.5, kTurnSigma = 1.0;
 constexpr double kAccelerationSigma = 3.0, kTurnAccelerationSigma = 6.0;
-
-// A pose by few points states a third of its error (90 % quantile in hard scenes), or less.
-constexpr double kUnstatedError = 3.0;
-constexpr double kLeastRotationError = 0.3, kLeastTranslationError = 0.003;  // degrees, metres
 
 // Of an image of another place, in those that a map can begin with: blank walls have some tens of
 // false corners.
@@ -70,15 +65,6 @@ std::optional<PlanePose> EstimateByPlanes(const TrackerOptions& options, const F
   pose.summary = EstimateFramePose(options.pose, frame, snapshot.map, snapshot.noise_scale, all,
                                    &pose.cam_from_world, &none);
   return pose.summary.usable ? std::make_optional(pose) : std::nullopt;
-}
-
-std::vector<PlaneMatch> MatchPlanesAt(const FramePose& pose, const Frame& frame,
-                                      const MapPlanes& map) {
-  const PoseCovariance least =
-      IsotropicCovariance(DegreesToRadians(kLeastRotationError), kLeastTranslationError);
-  return MatchPlanes(frame.planes, map, pose.cam_from_world,
-                     kUnstatedError * kUnstatedError * pose.summary.covariance +
-                         CovarianceOfCamera(pose.cam_from_world, least));
 }
 
 bool DetermineAPose(const Frame& frame, const std::vector<PlaneMatch>& matches) {

@@ -42,10 +42,6 @@ std::optional<PlanePose> EstimateByPlanes(const TrackerOptions& options, const F
                                           const MapSnapshot& snapshot, const ExpectedPose& expected,
                                           const std::vector<PoseFactor>& factors);
 
-/// Matches the planes of a frame around a pose by points and lines.
-std::vector<PlaneMatch> MatchPlanesAt(const FramePose& pose, const Frame& frame,
-                                      const MapPlanes& map);
-
 /// Whether the matched planes determine a pose.
 bool DetermineAPose(const Frame& frame, const std::vector<PlaneMatch>& matches);
 

@@ -136,6 +136,7 @@ std::optional<TrackedFrame> Tracker::TrackByPlanes(const Input& input) {
   if (is_certain && policy_.IsDue(*input.frame, tracked.matches, is_certain)) {
     tracked.keyframe.id = MakeKeyframe(timestamp);
   }
+  if (pose->is_determined) relocalization_.Reset();
   segment_start_.Tracked(timestamp);
   Follow(&tracked);
   return tracked;
@@ -152,8 +153,9 @@ ExpectedPose Tracker::ExpectPoseOf(const Input& input) const {
     velocity = prediction.cam_from_world * input.last_from_world.Inverse();
   }
   const double timestamp = input.frame->timestamp;
-  return ExpectPose(input.last_from_world, last_covariance_, timestamp - last_.frame->timestamp,
-                    velocity, timestamp - last_determined_);
+  return ExpectPose(input.last_from_world,
+                    CovarianceOfCamera(input.last_from_world, last_covariance_),
+                    timestamp - last_.frame->timestamp, velocity, timestamp - last_determined_);
 }
 
 TrackedFrame Tracker::Initialize(const std::shared_ptr<const Frame>& frame) {
@@ -266,7 +268,11 @@ TrackedFrame Tracker::TrackLocalMap(const Input& input, const FramePose& initial
     return SelectLocalMap(map, *tracked.frame, initial.cam_from_world, initial.matches,
                           ReferenceOrNewest(map, last_.reference), options_.max_local_keyframes);
   });
-  tracked.planes = MatchPlanesAt(initial, *tracked.frame, input.snapshot.planes);
+  if (!input.snapshot.calibration_is_doubted) {
+    tracked.planes =
+        MatchPlanes(tracked.frame->planes, input.snapshot.planes, initial.cam_from_world,
+                    CovarianceForMatching(initial.cam_from_world, initial.summary.covariance));
+  }
   estimator->AddFactors(
       MakePlanePoseFactors(tracked.frame->planes, tracked.planes, input.snapshot.planes));
   std::optional<FramePose> refined =
@@ -338,7 +344,7 @@ void Tracker::Follow(TrackedFrame* tracked) {
     motion_.Observe(timestamp, *tracked->cam_from_last);
   }
   last_ = LastFrame(*tracked);
-  last_covariance_ = tracked->pose.covariance;
+  last_covariance_ = CameraCovariance(tracked->cam_from_world, tracked->pose.covariance);
 }
 
 }  // namespace msc_vo

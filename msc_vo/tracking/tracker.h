@@ -142,7 +142,7 @@ class Tracker {
   PosePlausibility plausibility_;
   bool in_gap_ = false;           // frames since `last_` have no pose
   double last_determined_ = 0.0;  // time of the last frame whose pose was certain, seconds
-  PoseCovariance last_covariance_ = PoseCovariance::Zero();  // of the pose of `last_`
+  PoseCovariance last_covariance_ = PoseCovariance::Zero();  // of the camera of `last_`
 };
 
 }  // namespace msc_vo

@@ -160,7 +160,6 @@ TEST_F(OdometryTest, AlignsDepthToTheTimeOfTheColourImage) {
   const std::vector<TimedPose> truth = TruthOf(scene);
   OdometryOptions options;
   options.threads = 1;
-  options.features.extract_planes = false;  // which make up for it by themselves
   const double ignored = ApeRmse(Run(options, images), truth);
   for (RgbdImage& image : images) image.depth_delay = scene.depth_delay;
   const OdometryResult aligned = Run(options, images);
