@@ -37,14 +37,10 @@ void CheckImage(const cv::Mat& image, int type, const PinholeCamera& camera, con
 // Between the times of both images, the camera moves in a way that is not known, or was predicted
 // from the last two frames: of hand-held cameras, the velocity and its change in 1/30 s.
 void AddMotionNoise(const RgbdImage& image, std::vector<PlaneFeature>* planes) {
-  constexpr double kTurn = 1.0, kTurnChange = 0.2;    // radians/second
-  constexpr double kSpeed = 0.5, kSpeedChange = 0.1;  // metres/second
-  const double still = std::abs(image.depth_delay), moved = std::abs(image.depth_shift);
-  if (still == 0.0 && moved == 0.0) return;
-  for (PlaneFeature& plane : *planes) {
-    plane.AddMotionNoise(kTurn * still + kTurnChange * moved,
-                         kSpeed * still + kSpeedChange * moved);
-  }
+  const double turn = image.depth_velocity ? 0.2 : 1.0;   // radians/second
+  const double speed = image.depth_velocity ? 0.1 : 0.5;  // metres/second
+  const double delay = std::abs(image.depth_delay);
+  for (PlaneFeature& plane : *planes) plane.AddMotionNoise(turn * delay, speed * delay);
 }
 
 }  // namespace
@@ -204,7 +200,9 @@ Frame FrameBuilder::Build(const RgbdImage& image, const TaskRunner& run) {
   if (state_->planes) {
     tasks.push_back([&] {
       frame.planes = state_->planes->Extract(masked.depth);
+      if (image.depth_delay == 0.0) return;
       AddMotionNoise(image, &frame.planes);
+      frame.depth_motion = {image.depth_delay, image.depth_velocity.value_or(CameraVelocity())};
     });
   }
   for (size_t l = 0; l < levels.size(); ++l) {

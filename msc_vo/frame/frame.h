@@ -22,6 +22,17 @@
 
 namespace msc_vo {
 
+/// How the planes of a depth image were moved to the time of the colour image.
+struct DepthMotion {
+  double delay = 0.0;       ///< time of the depth image relative to the colour image, seconds
+  CameraVelocity velocity;  ///< over that time
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, delay, velocity);
+  }
+};
+
 /// The features of one image. Image data is kept beyond this type for self-calibration only, see
 /// RecordedImage.
 ///
@@ -48,6 +59,9 @@ struct Frame {
   /// time, seconds.
   std::optional<CameraVelocity> velocity;
   double readout_time = 0.0;
+  /// Of `planes`; depths of points and lines hardly change where a surface turns by the error of a
+  /// velocity.
+  DepthMotion depth_motion = {};
 
   /// Position in camera coordinates (metres) of a point that has a depth.
   Eigen::Vector3d PointInCamera(int index) const {
@@ -62,7 +76,7 @@ struct Frame {
   template <typename Archive>
   void Serialize(Archive& archive) {
     archive.Fields(*this, id, timestamp, camera, lens, points, lines, planes, grid, depth_ranges,
-                   intrinsics, velocity, readout_time);
+                   intrinsics, velocity, readout_time, depth_motion);
   }
 };
 

@@ -10,6 +10,7 @@
 
 #include "msc_vo/geometry/convex_polygon.h"
 #include "msc_vo/geometry/plane_extent.h"
+#include "msc_vo/geometry/rigid3.h"
 
 namespace msc_vo {
 
@@ -45,6 +46,12 @@ struct PlaneFeature {
     return extent;
   }
 
+  /// Moves the plane, but neither covariance nor extent, which hardly change in small motions.
+  void Move(const Rigid3& motion) {
+    // With a point x, q . x = 1.
+    const Eigen::Vector3d turned = motion.rotation() * inverse_depth;
+    inverse_depth = turned / (1.0 + turned.dot(motion.translation()));
+  }
   /// Adds the noise of an unknown motion of the camera: standard deviations of its rotation vector
   /// (radians) and of its translation (metres).
   void AddMotionNoise(double rotation_sigma, double translation_sigma) {

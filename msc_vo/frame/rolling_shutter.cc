@@ -103,4 +103,13 @@ Frame CompensateRollingShutter(const Frame& frame, const CameraVelocity& velocit
   return compensated;
 }
 
+void SetDepthVelocity(const CameraVelocity& velocity, Frame* frame) {
+  DepthMotion& present = frame->depth_motion;
+  if (present.delay == 0.0) return;
+  const Rigid3 motion =
+      velocity.Over(present.delay).Inverse() * present.velocity.Over(present.delay);
+  for (PlaneFeature& plane : frame->planes) plane.Move(motion);
+  present.velocity = velocity;
+}
+
 }  // namespace msc_vo

@@ -37,4 +37,8 @@ Eigen::Vector3d RayChange(const Frame& frame, const Eigen::Vector2d& pixel, doub
 Frame CompensateRollingShutter(const Frame& frame, const CameraVelocity& velocity,
                                double readout_time);
 
+/// Moves the planes of a frame, whose depth image was taken at another time than its colour image,
+/// to where this velocity of the camera says that they are.
+void SetDepthVelocity(const CameraVelocity& velocity, Frame* frame);
+
 }  // namespace msc_vo

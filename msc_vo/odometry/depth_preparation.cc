@@ -51,11 +51,10 @@ RgbdImage DepthPreparation::RemoveClipped(const RgbdImage& image) {
 RgbdImage DepthPreparation::Align(const RgbdImage& image,
                                   const std::optional<CameraVelocity>& velocity) const {
   RgbdImage aligned = image;
-  aligned.depth_delay = 0.0;
   if (image.depth_delay != 0.0 && velocity) {
     if (aligned.recorded_depth.empty()) aligned.recorded_depth = image.depth;
     aligned.depth = aligner_.Align(image.depth, velocity->Over(image.depth_delay));
-    aligned.depth_shift = image.depth_delay;
+    aligned.depth_velocity = velocity;
   }
   return aligned;
 }

@@ -35,8 +35,8 @@ AlignedImage ImagePipeline::Align(const RgbdImage& given,
     image.recorded = StandaloneImages(given);
     RemoveMaskedDepth(&image.recorded);
     if (finds_clipped_depth_) image.recorded = preparation_.RemoveClipped(image.recorded);
-    image.aligned =
-        options_.align_depth ? preparation_.Align(image.recorded, velocity) : image.recorded;
+    if (!options_.align_depth) image.recorded.depth_delay = 0.0;
+    image.aligned = preparation_.Align(image.recorded, velocity);
   });
   return image;
 }

@@ -186,12 +186,15 @@ bool CalibrationEstimator::Update(const Map& map, KeyframeId newest,
 }
 
 bool CalibrationEstimator::IsDoubted() const {
-  constexpr CorrectionGroup kGroups[] = {CorrectionGroup::kFocalLength, CorrectionGroup::kLens};
-  return std::any_of(std::begin(kGroups), std::end(kGroups), [this](CorrectionGroup group) {
+  const auto is_doubted = [this](CorrectionGroup group, double odds) {
     const auto g = static_cast<size_t>(group);
-    return pairs_.num_added() > 0 && !estimate_.is_corrected[g] &&
-           estimate_.log_odds[g] > std::log(kDoubtedOdds);
-  });
+    return !estimate_.is_corrected[g] && estimate_.log_odds[g] > std::log(odds);
+  };
+  // Registered depth has errors that the model leaves out, and their odds are large in recordings
+  // of good cameras, too.
+  return pairs_.num_added() > 0 && (is_doubted(CorrectionGroup::kFocalLength, kDoubtedOdds) ||
+                                    is_doubted(CorrectionGroup::kLens, kDoubtedOdds) ||
+                                    is_doubted(CorrectionGroup::kDepthRegistration, kAcceptedOdds));
 }
 
 CorrectionEstimate CalibrationEstimator::estimate() const {

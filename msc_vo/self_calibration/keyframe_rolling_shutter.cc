@@ -43,8 +43,10 @@ void MoveExclusiveLandmarks(KeyframeId id, Map* map) {
 void SetKeyframeVelocity(KeyframeId keyframe, const CameraVelocity& velocity, Map* map) {
   const Keyframe* old = map->FindKeyframe(keyframe);
   if (old == nullptr) return;
-  map->SetFrame(keyframe, std::make_shared<Frame>(CompensateRollingShutter(
-                              *old->frame, velocity, old->frame->readout_time)));
+  auto frame = std::make_shared<Frame>(
+      CompensateRollingShutter(*old->frame, velocity, old->frame->readout_time));
+  SetDepthVelocity(velocity, frame.get());
+  map->SetFrame(keyframe, frame);
 }
 
 std::shared_ptr<const Frame> UpdateCompensation(std::shared_ptr<const Frame> frame,

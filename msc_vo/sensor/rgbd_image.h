@@ -4,8 +4,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include <opencv2/core.hpp>
+
+#include "msc_vo/geometry/camera_velocity.h"
 
 namespace msc_vo {
 
@@ -15,10 +18,10 @@ struct RgbdImage {
   double timestamp = 0.0;  ///< seconds, of the colour image
   cv::Mat gray;            ///< CV_8UC1
   cv::Mat depth;           ///< CV_32FC1, metres along the optical axis; 0: no measurement
-  /// Time of the depth image relative to that of the colour image, seconds.
+  /// Time at which the depth image was recorded relative to that of the colour image, seconds.
   double depth_delay = 0.0;
-  /// Seconds by which `depth` was moved to the time of the colour image, with a predicted velocity.
-  double depth_shift = 0.0;
+  /// Velocity of the camera by which `depth` was moved to the time of the colour image, if it was.
+  std::optional<CameraVelocity> depth_velocity = {};
   /// The depth image as the sensor recorded it, if `depth` was registered to the colour image or
   /// aligned to its time, which changes its noise; otherwise empty.
   cv::Mat recorded_depth = {};

@@ -20,7 +20,10 @@ std::shared_ptr<const Frame> CompensateFrame(std::shared_ptr<const Frame> frame,
                                              const std::optional<CameraVelocity>& velocity,
                                              double readout_time) {
   if (!velocity) return frame;
-  return std::make_shared<Frame>(CompensateRollingShutter(*frame, *velocity, readout_time));
+  auto compensated =
+      std::make_shared<Frame>(CompensateRollingShutter(*frame, *velocity, readout_time));
+  SetDepthVelocity(*velocity, compensated.get());
+  return compensated;
 }
 
 }  // namespace msc_vo
