@@ -54,10 +54,11 @@ void MovePlane(const PinholeCamera& camera, const RowMotion& motion, PlaneFeatur
   const Eigen::Vector3d mean = moments.col(2);
   Eigen::Matrix3d square_rays = Eigen::Matrix3d::Zero();
   Eigen::Vector3d rays_times_depth = Eigen::Vector3d::Zero();
-  for (int i = 0; i < 2; ++i) {
-    const double spread = std::sqrt(std::max(0.0, moments(i, i) - mean[i] * mean[i]));
-    for (const double side : {-spread, spread}) {
-      const Eigen::Vector3d ray = mean + side * Eigen::Vector3d::Unit(i);
+  const Eigen::Vector3d spread =
+      (moments.diagonal() - mean.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();  // its z is 0
+  for (const double x : {-1.0, 1.0}) {
+    for (const double y : {-1.0, 1.0}) {
+      const Eigen::Vector3d ray = mean + spread.cwiseProduct(Eigen::Vector3d(x, y, 0.0));
       double inverse_depth = plane->inverse_depth.dot(ray);
       const Eigen::Vector3d moved = camera.Ray(motion.Moved(camera.Project(ray), &inverse_depth));
       square_rays += moved * moved.transpose();

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <vector>
 
+#include <Eigen/LU>
+
 #include "tests/support/lenses.h"
 #include "tests/support/rolling_frames.h"
 #include <gmock/gmock.h>
@@ -132,6 +134,60 @@ TEST(RollingShutter, CorrectsAWrongCompensation) {
   // Phases are computed from the compensated pixels, whose row error leaves a few percent.
   EXPECT_LT(LargestError(CompensateRollingShutter(wrong, kVelocity, kReadout)),
             0.04 * LargestError(wrong));
+}
+
+// The plane that a rolling shutter's depth image shows of {x : q . x = 1}: fitted to its inverse
+// depths all over the image.
+PlaneFeature RollingPlane(const PinholeCamera& camera, const Eigen::Vector3d& q) {
+  Eigen::Matrix3d square_rays = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d rays_times_depth = Eigen::Vector3d::Zero();
+  int count = 0;
+  for (int y = 40; y < camera.height; y += 40) {
+    for (int x = 40; x < camera.width; x += 40, ++count) {
+      const Eigen::Vector3d ray = camera.Ray({x, y});
+      const PointFeature point = ProjectRolling(camera, ray / q.dot(ray), kVelocity, kReadout);
+      const Eigen::Vector3d recorded = camera.Ray(point.pixel);
+      square_rays += recorded * recorded.transpose();
+      rays_times_depth += point.inverse_depth * recorded;
+    }
+  }
+  PlaneFeature plane;
+  plane.inverse_depth = square_rays.inverse() * rays_times_depth;
+  plane.mean_square_ray = square_rays / count;
+  return plane;
+}
+
+TEST(RollingShutter, CompensatesPlanes) {
+  const Eigen::Vector3d truth(0.1, -0.2, 0.5);
+  Frame frame;
+  frame.planes = {RollingPlane(frame.camera, truth)};
+  const double error = (frame.planes[0].inverse_depth - truth).norm();
+  EXPECT_GT(error, 1e-3);
+  frame = CompensateRollingShutter(frame, kVelocity, kReadout);
+  EXPECT_LT((frame.planes[0].inverse_depth - truth).norm(), 0.1 * error);
+}
+
+// A plane {x : q . x = 1} in the frame of a camera that has moved by `motion`.
+Eigen::Vector3d PlaneAfter(const Rigid3& motion, const Eigen::Vector3d& q) {
+  const Eigen::Vector3d turned = motion.rotation() * q;
+  const double distance = 1.0 / q.norm() + turned.normalized().dot(motion.translation());
+  return turned.normalized() / distance;
+}
+
+TEST(RollingShutter, PlanesOfALateDepthImageMoveByTheVelocity) {
+  const Eigen::Vector3d truth(0.1, -0.2, 0.5);
+  constexpr double kDelay = 0.02;
+  Frame frame;
+  frame.planes.resize(1);
+  frame.planes[0].inverse_depth = PlaneAfter(kVelocity.Over(kDelay), truth);
+  SetDepthVelocity(kVelocity, &frame);
+  EXPECT_NE(frame.planes[0].inverse_depth, truth) << "the depth image is not late";
+  frame.depth_motion.delay = kDelay;
+  const CameraVelocity predicted{1.3 * kVelocity.angular, 0.5 * kVelocity.linear};
+  SetDepthVelocity(predicted, &frame);
+  EXPECT_GT((frame.planes[0].inverse_depth - truth).norm(), 1e-3);
+  SetDepthVelocity(kVelocity, &frame);
+  EXPECT_LT((frame.planes[0].inverse_depth - truth).norm(), 1e-12);
 }
 
 TEST(RollingShutter, RayChangeIsTheDerivativeByTheReadoutTime) {
