@@ -132,13 +132,16 @@ void Mapper::Fuse(KeyframeTask* task) {
 void Mapper::CloseLoop(KeyframeTask* task) {
   const KeyframePacket& packet = task->packet_;
   MappingSummary& summary = task->summary_;
-  Map* const map = &atlas_.current().map;
+  SubMap& submap = atlas_.current();
+  Map* const map = &submap.map;
   if (summary.join) return loops_.Clear();  // the world of the visits may be another
   if (!packet.revisit || map->FindKeyframe(packet.revisit->reference) == nullptr) return;
   Timed(&summary.times.loop, [&] {
     loops_.AddRevisit({summary.keyframe, packet.covariance, *packet.revisit});
     summary.loop = loops_.TryClose(map);
-    if (summary.loop) care_.Fuse(summary.keyframe, map);
+    if (!summary.loop) return;
+    submap.planes = submap.planes.Fitted(*map);
+    care_.Fuse(summary.keyframe, map);
   });
   summary.num_refused_loops = loops_.num_refused();
 }

@@ -11,6 +11,7 @@
 #include <set>
 #include <utility>
 
+#include "msc_vo/bundle_adjustment/window_problem.h"
 #include "msc_vo/factors/plane_manifold.h"
 #include "msc_vo/factors/plane_observation.h"
 #include "msc_vo/matching/plane_matcher.h"
@@ -28,6 +29,8 @@ constexpr double kLearningRate = 0.1;
 constexpr size_t kMinResiduals = 10;
 // Bounds of the learnt scale of sigmas.
 constexpr double kMinNoise = 0.1, kMaxNoise = 10.0;
+// Of Fitted(): a plane that is nearly right converges quadratically.
+constexpr int kFitIterations = 5;
 // Vertices of an extent: a rectangle with cut corners, and some that further views add.
 constexpr size_t kMaxVertices = 16;
 // Largest gap between parts of one plane that are merged, metres: two cells of the extractor at
@@ -180,16 +183,43 @@ void PlaneMap::AddTo(const Map& map, WindowData* window) const {
   }
 }
 
+PlaneMap PlaneMap::Fitted(const Map& map) const {
+  PlaneMap fitted = *this;
+  WindowData window;
+  for (const auto& [id, matches] : keyframes_) {
+    const Keyframe* keyframe = map.FindKeyframe(id);
+    if (keyframe != nullptr) window.keyframes.push_back({id, keyframe->cam_from_world, true});
+  }
+  AddTo(map, &window);
+  if (window.extra_blocks.empty()) return fitted;
+  WindowProblem problem({}, window);
+  ceres::Solver::Summary summary;
+  ceres::Solve(problem.SolverOptions(kFitIterations), problem.problem(), &summary);
+  problem.WriteBack(&window);
+  fitted.SetEstimates(map, window);
+  return fitted;
+}
+
+// Takes over the estimates of a window.
+void PlaneMap::SetEstimates(const Map& map, const WindowData& window) {
+  for (const ExtraBlock& block : window.extra_blocks) {
+    if (!IsPlane(block)) continue;
+    const auto known = planes_.find(PlaneOf(block));
+    if (known == planes_.end()) continue;
+    Plane plane;
+    plane.params = block.value;
+    known->second.in_host = map.CamFromWorld(known->second.host) * plane;
+  }
+}
+
 void PlaneMap::Learn(const Map& map, const WindowData& window) {
+  SetEstimates(map, window);
   std::map<LandmarkId, Plane> estimates;
   for (const ExtraBlock& block : window.extra_blocks) {
     if (!IsPlane(block)) continue;
     Plane plane;
     plane.params = block.value;
     estimates[PlaneOf(block)] = plane;
-    const auto known = planes_.find(PlaneOf(block));
-    if (known == planes_.end()) continue;
-    known->second.in_host = map.CamFromWorld(known->second.host) * plane;
   }
   std::map<LandmarkId, std::vector<double>> of_planes;
   for (const WindowData::Keyframe& keyframe : window.keyframes) {
@@ -241,6 +271,7 @@ std::map<LandmarkId, int> PlaneMap::NumObservations() const {
 }
 
 SavedPlanes PlaneMap::Save(const Map& map) const {
+  const std::map<LandmarkId, HostedPlane> planes = Fitted(map).planes_;
   SavedPlanes saved;
   saved.noise = noise_;
   std::map<LandmarkId, KeyframeId> first_observers;
@@ -250,7 +281,7 @@ SavedPlanes PlaneMap::Save(const Map& map) const {
     for (const PlaneMatch& match : matches) first_observers.emplace(match.plane, id);
   }
   for (const auto& [id, observer] : first_observers) {
-    HostedPlane plane = planes_.at(id);
+    HostedPlane plane = planes.at(id);
     if (map.FindKeyframe(plane.host) == nullptr) {
       const Rigid3 host_from_old =
           map.CamFromWorld(observer) * map.CamFromWorld(plane.host).Inverse();

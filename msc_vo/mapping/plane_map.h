@@ -40,13 +40,17 @@ class PlaneMap {
   /// learns the noise from its residuals.
   void Learn(const Map& map, const WindowData& window);
 
+  /// With every plane fitted to all keyframes that observe it, at the poses that these have: the
+  /// estimate of a window is that of its keyframes, and far from these, a large wall is elsewhere.
+  PlaneMap Fitted(const Map& map) const;
+
   /// The planes in the world of the map.
   MapPlanes InWorld(const Map& map) const;
   bool empty() const { return planes_.empty(); }
   /// The number of keyframes that observe each plane.
   std::map<LandmarkId, int> NumObservations() const;
 
-  /// The planes of the keyframes that are in the map, hosted by these, for a map file.
+  /// The planes of the keyframes that are in the map, Fitted() and hosted by these, for a map file.
   SavedPlanes Save(const Map& map) const;
   void Restore(const SavedPlanes& saved);
 
@@ -58,6 +62,7 @@ class PlaneMap {
   }
 
  private:
+  void SetEstimates(const Map& map, const WindowData& window);
   void Grow(const Map& map, const Keyframe& keyframe, const PlaneMatch& match);
   bool AreSame(const Map& map, const Keyframe& keyframe, const PlaneMatch& match,
                LandmarkId other) const;

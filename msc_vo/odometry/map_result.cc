@@ -27,7 +27,7 @@ size_t SessionOf(KeyframeId keyframe, const std::vector<MapSession>& sessions) {
 void AddPlanes(const SubMap& submap, OdometryResult* result) {
   const std::optional<AxesEstimate> axes = submap.axes.Estimate();
   const std::map<LandmarkId, int> counts = submap.planes.NumObservations();
-  for (const PlaneLandmark& landmark : submap.planes.InWorld(submap.map).planes) {
+  for (const PlaneLandmark& landmark : submap.planes.Fitted(submap.map).InWorld(submap.map).planes) {
     result->planes.push_back({landmark.plane, landmark.extent, counts.at(landmark.id),
                               axes ? AxisOfPlane(*axes, landmark.plane) : std::nullopt});
   }

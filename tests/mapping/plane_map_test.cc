@@ -99,6 +99,19 @@ TEST_F(PlaneMapTest, LearnsEstimatesOfWindows) {
   EXPECT_LT((planes_.InWorld(map_).planes[1].plane.params - estimate.params).norm(), 1e-9);
 }
 
+TEST_F(PlaneMapTest, FitsPlanesToAllKeyframesThatObserveThem) {
+  const Rigid3 pose = map_.FindKeyframe(0)->cam_from_world;
+  map_.SetPose(0, pose * Rigid3({1, 0, 0, 0}, {0.0, 0.03, 0.0}));  // of the host
+  const double hosted = Error({});
+  EXPECT_NEAR(hosted, 0.03, 1e-3);
+  planes_ = planes_.Fitted(map_);
+  EXPECT_LT(Error({}), 0.5 * hosted);
+  map_.SetPose(0, pose);
+  EXPECT_GT(Error({}), 0.01);
+  planes_ = planes_.Fitted(map_);
+  EXPECT_LT(Error({}), 1e-6);
+}
+
 // A patch of a wall at z = 2 that is seen from its front, between two values of x.
 PlaneFeature Patch(const Rigid3& cam_from_world, double min_x, double max_x, double depth = 2.0) {
   PlaneFeature feature = FeatureOf(cam_from_world * Plane({0.0, 0.0, -1.0}, depth));
