@@ -113,11 +113,11 @@ function makeSurface(model) {
   return mesh;
 }
 
-// Translucent plates, seen from both sides, that do not hide what is behind them.
+// Translucent plates that do not hide what is behind them. Like the surface, they are seen from
+// their front only.
 function makePlates() {
-  const mesh = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.MeshBasicMaterial({
-    vertexColors: true, transparent: true, opacity: 0.25, depthWrite: false, side: THREE.DoubleSide
-  }));
+  const mesh = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.MeshBasicMaterial(
+      {vertexColors: true, transparent: true, opacity: 0.25, depthWrite: false}));
   mesh.frustumCulled = false;
   return mesh;
 }
