@@ -50,7 +50,7 @@ Command AddExportCommand(CLI::App* app) {
       ->add_option("run", arguments->run,
                    "Folder of results, trajectory, or, for colmap and g2o, a map file of --map")
       ->required();
-  command->add_option("format", arguments->format, "Format of the other program")
+  command->add_option("FORMAT", arguments->format, "Format of the other program")
       ->check(CLI::IsMember(ExportFormats()))
       ->required();
   command->add_option("output", arguments->output, "File to write; for colmap, a folder")

@@ -4,6 +4,7 @@
 // Help, exit codes and error messages of all sub-commands.
 
 #include <filesystem>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -21,14 +22,33 @@ using testing::HasSubstr;
 
 class CommandLineTest : public TemporaryFolder {};
 
+// The names that begin the lines of a part of a help text.
+std::vector<std::string> NamesIn(const std::string& help, const std::string& part) {
+  const size_t begin = help.find("\n" + part + ":\n");
+  if (begin == std::string::npos) return {};
+  const std::string lines = help.substr(begin + 1, help.find("\n\n", begin) - begin);
+  const std::regex name("\n  ([A-Za-z][A-Za-z-]*)");
+  std::vector<std::string> names;
+  for (std::sregex_iterator line(lines.begin(), lines.end(), name), end; line != end; ++line) {
+    names.push_back((*line)[1]);
+  }
+  return names;
+}
+
 TEST_F(CommandLineTest, PrintsHelpForEveryCommand) {
-  for (const char* command :
-       {"replay", "evaluate", "benchmark", "check", "synthesize", "solve-window"}) {
+  const std::vector<std::string> commands = NamesIn(RunCommand({"--help"}).output, "Subcommands");
+  EXPECT_THAT(commands, testing::IsSupersetOf({"replay", "evaluate", "check", "export"}));
+  for (const std::string& command : commands) {
     const CommandOutcome outcome = RunCommand({command, "--help"});
     EXPECT_EQ(outcome.exit_code, 0) << command;
-    EXPECT_THAT(outcome.output, AllOf(HasSubstr("\n  msc_vo " + std::string(command)),
+    EXPECT_THAT(outcome.output, AllOf(HasSubstr("\n  msc_vo " + command),
                                       Names("Exit codes", "0", "1", "2", "3", "130")));
-    EXPECT_THAT(RunCommand({"--help"}).output, HasSubstr(command));
+    // Newer versions of CLI11 refuse to have an argument and an option of one name.
+    for (const std::string& argument : NamesIn(outcome.output, "Positionals")) {
+      EXPECT_THAT(outcome.output,
+                  testing::Not(testing::ContainsRegex("\n  (-.,)?--" + argument + "[ ,]")))
+          << command;
+    }
   }
   EXPECT_THAT(RunCommand({"--version"}).output, testing::StartsWith("msc_vo "));
 }
