@@ -33,20 +33,6 @@ void CheckBeforeRun(const RunExport& one, const ReplayArguments& arguments,
   MakeFolder(one.output);
 }
 
-}  // namespace
-
-std::string CheckExportText(const std::string& text) {
-  const size_t equals = text.find('=');
-  if (equals == std::string::npos || equals + 1 == text.size()) {
-    return "'" + text + "' must be FORMAT=PATH, for instance tum=poses.txt";
-  }
-  const std::vector<std::string>& formats = ExportFormats();
-  if (std::find(formats.begin(), formats.end(), FormatOf(text)) != formats.end()) return "";
-  std::string names;
-  for (const std::string& name : formats) names += (names.empty() ? "" : ", ") + name;
-  return "'" + FormatOf(text) + "' is no format; formats: " + names;
-}
-
 // Throws std::runtime_error if a path is that of another export or of a result.
 void RefuseTakenPath(const RunExport& one, const std::vector<RunExport>& others,
                      const std::string& results) {
@@ -63,6 +49,20 @@ void RefuseTakenPath(const RunExport& one, const std::vector<RunExport>& others,
   }
 }
 
+}  // namespace
+
+std::string CheckExportText(const std::string& text) {
+  const size_t equals = text.find('=');
+  if (equals == std::string::npos || equals + 1 == text.size()) {
+    return "'" + text + "' must be FORMAT=PATH, for instance tum=poses.txt";
+  }
+  const std::vector<std::string>& formats = ExportFormats();
+  if (std::find(formats.begin(), formats.end(), FormatOf(text)) != formats.end()) return "";
+  std::string names;
+  for (const std::string& name : formats) names += (names.empty() ? "" : ", ") + name;
+  return "'" + FormatOf(text) + "' is no format; formats: " + names;
+}
+
 std::vector<RunExport> PlanExports(const ReplayArguments& arguments, const RgbdDecoder& sequence,
                                    const std::string& output) {
   std::vector<RunExport> exports;
@@ -73,12 +73,12 @@ std::vector<RunExport> PlanExports(const ReplayArguments& arguments, const RgbdD
     one.format = FormatOf(text);
     one.output = text.substr(text.find('=') + 1);
     const SequenceIndex& index = sequence.index();
+    one.requires_features = false;
     // The images of a live camera are gone after the run.
     if (one.format == "mcap" && index.camera) one.map.clear();
-    // The calibration is that of the results.
     if (one.format != "colmap" || (!index.container && !index.camera && !index.scale_color)) {
       one.sequence = arguments.sequence;
-      one.sequence.camera.clear();
+      one.sequence.camera.clear();  // the calibration is that of the results
     }
     try {
       RefuseTakenPath(one, exports, output);

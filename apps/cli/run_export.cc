@@ -95,17 +95,31 @@ void AddImages(const RunExport& arguments, const std::vector<TimedPose>& poses, 
   }
 }
 
-// Draws the features of the keyframes, if there is a map of the run.
-void AddFeatures(const RunExport& arguments, McapRun* run) {
+// Draws the features of the keyframes, if there is a map of the run. Counts the images that cannot
+// be read, whose features are left out.
+void AddFeatures(const RunExport& arguments, int* num_unreadable, McapRun* run) {
   if (arguments.map.empty()) return;
   RgbdDecoder images = OpenExportedSequence(arguments);
   const auto identity = ReadIdentity(arguments.run);  // the sequence may have moved since
   const std::string sequence = identity ? identity->path : images.index().directory;
-  const auto features =
-      std::make_shared<const ExportedFeatures>(arguments.map, sequence, std::move(images));
+  std::shared_ptr<const ExportedFeatures> features;
+  try {
+    features = std::make_shared<const ExportedFeatures>(arguments.map, sequence, std::move(images));
+  } catch (const std::runtime_error& error) {
+    if (arguments.requires_features) throw;
+    PrintWarning(arguments.output + ": images with features are left out: " + error.what());
+    return;
+  }
   std::vector<int64_t> times;
   for (const McapFrame& frame : run->frames) times.push_back(frame.nanoseconds / 1000);
-  run->draw_features = [features, times](size_t i) { return features->Draw(times[i]); };
+  run->draw_features = [features, times, num_unreadable](size_t i) -> std::string {
+    try {
+      return features->Draw(times[i]);
+    } catch (const UnreadableImage&) {
+      ++*num_unreadable;
+      return "";
+    }
+  };
 }
 
 // Points, lines and planes, if they are in the world of the poses.
@@ -150,8 +164,14 @@ void WriteMcap(const RunExport& arguments) {
   }
   AddMap(arguments.run, poses.front().world, &run);
   if (arguments.images) AddImages(arguments, poses, &run);
-  AddFeatures(arguments, &run);
+  int num_unreadable = 0;
+  AddFeatures(arguments, &num_unreadable, &run);
   ExportMcap(run, arguments.output);
+  if (num_unreadable == 0) return;
+  PrintWarning(
+      FormatText("%s: %d images of keyframes cannot be read; they are left out of "
+                 "/msc_vo/features/compressed",
+                 arguments.output.c_str(), num_unreadable));
 }
 
 void WritePly(const RunExport& arguments) {

@@ -22,8 +22,11 @@ struct RunExport {
   SequenceArguments sequence;  ///< its directory is that of the results if empty
   ConfigurationArguments configuration;
   PoseSelection poses;
-  bool binary = false;          ///< colmap
-  bool images = false;          ///< mcap
+  bool binary = false;  ///< colmap
+  bool images = false;  ///< mcap
+  /// mcap: whether a map without keyframes of the run is an error; else features are left out with
+  /// a warning.
+  bool requires_features = true;
   SurfaceFusionOptions fusion;  ///< ply
 };
 

@@ -5,16 +5,14 @@
 
 #include <filesystem>
 #include <limits>
-#include <map>
 #include <optional>
-#include <set>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include "msc_vo/datasets/trajectory.h"
+#include "msc_vo/odometry/map_result.h"
 #include "msc_vo/results/ply_file.h"
 #include "msc_vo/structure/scene_axes.h"
 #include "msc_vo/text/files.h"
@@ -79,22 +77,9 @@ std::vector<MapLine> LinesOf(const SavedSubMap& submap) {
 }
 
 std::vector<MapPlane> PlanesOf(const SavedSubMap& submap) {
-  std::map<LandmarkId, int> counts;
-  for (const auto& [keyframe, matches] : submap.planes.observations) {
-    std::set<LandmarkId> observed;
-    for (const PlaneMatch& match : matches) observed.insert(match.plane);
-    for (const LandmarkId id : observed) ++counts[id];
-  }
-  std::vector<MapPlane> planes;
-  for (const auto& [id, plane] : submap.planes.planes) {
-    const Rigid3 world_from_host = submap.map.CamFromWorld(plane.host).Inverse();
-    MapPlane exported{world_from_host * plane.in_host, world_from_host * plane.extent, counts[id],
-                      std::nullopt};
-    for (Eigen::Vector3d& vertex : exported.extent) vertex = Project(exported.plane, vertex);
-    if (submap.axes) exported.axis = AxisOfPlane(*submap.axes, exported.plane);
-    planes.push_back(std::move(exported));
-  }
-  return planes;
+  PlaneMap planes;
+  planes.Restore(submap.planes);
+  return MakeMapPlanes(planes, submap.map, submap.axes);
 }
 
 // The keyframes of session `session` in a submap.

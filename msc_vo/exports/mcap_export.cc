@@ -135,12 +135,11 @@ void WriteRun(const McapRun& run, const std::string& path) {
   RosBag bag(path);
   if (!run.frames.empty()) WriteMap(run, &bag);
   const McapFrame* before = nullptr;
-  for (const McapFrame& frame : run.frames) {
+  for (size_t i = 0; i < run.frames.size(); ++i) {
+    const McapFrame& frame = run.frames[i];
     WritePoses(before, frame, &bag);
     if (!frame.image.empty()) WriteImage(frame, run.camera, &bag);
-    if (run.draw_features) {
-      WriteFeatures(frame, run.draw_features(static_cast<size_t>(&frame - &run.frames[0])), &bag);
-    }
+    if (run.draw_features) WriteFeatures(frame, run.draw_features(i), &bag);
     before = &frame;
   }
   bag.Finish();

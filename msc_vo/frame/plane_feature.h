@@ -34,17 +34,10 @@ struct PlaneFeature {
   /// Unit normal towards the camera, and the distance of the camera from the plane, metres.
   Eigen::Vector3d Normal() const { return -inverse_depth.normalized(); }
   double Distance() const { return 1.0 / inverse_depth.norm(); }
-  /// The hull on the plane, camera frame, metres.
-  PlaneExtent Extent() const {
-    PlaneExtent extent;
-    for (const Eigen::Vector2d& vertex : hull) {
-      const Eigen::Vector3d ray(vertex.x(), vertex.y(), 1.0);
-      // The hull may reach a little beyond what was measured, but not to the horizon.
-      if (inverse_depth.dot(ray) >= kMinInverseDepth)
-        extent.push_back(ray / inverse_depth.dot(ray));
-    }
-    return extent;
-  }
+  /// The hull on the plane, camera frame, metres. A hull that reaches beyond the measured pixels to
+  /// the horizon of the plane is clipped at kMinInverseDepth. Empty if the hull is, or if nothing
+  /// of it is near enough.
+  PlaneExtent Extent() const;
 
   /// Moves the plane, but neither covariance nor extent, which hardly change in small motions.
   void Move(const Rigid3& motion) {

@@ -71,14 +71,6 @@ void Simplify(size_t max_vertices, ConvexPolygon* polygon) {
   }
 }
 
-double Area(const ConvexPolygon& polygon) {
-  double twice = 0.0;
-  for (size_t i = 2; i < polygon.size(); ++i) {
-    twice += Cross(polygon[0], polygon[i - 1], polygon[i]);
-  }
-  return 0.5 * twice;
-}
-
 bool AreTouching(const ConvexPolygon& a, const ConvexPolygon& b, double gap) {
   return !a.empty() && !b.empty() && Separation(a, b) <= gap && Separation(b, a) <= gap;
 }

@@ -20,9 +20,6 @@ ConvexPolygon ConvexHull(std::vector<Eigen::Vector2d> points);
 /// removal costs the least area: the result lies within the polygon.
 void Simplify(size_t max_vertices, ConvexPolygon* polygon);
 
-/// In square units of the vertices.
-double Area(const ConvexPolygon& polygon);
-
 /// Whether two polygons overlap, or an edge of one separates them by at most `gap`. False if one is
 /// empty.
 bool AreTouching(const ConvexPolygon& a, const ConvexPolygon& b, double gap);

@@ -71,9 +71,10 @@ MapFileSummary SummarizeMap(const std::string& path) {
     SqliteStatement submaps = database.Prepare("SELECT id FROM submap ORDER BY id");
     while (submaps.Step()) {
       const int64_t id = submaps.Integer(0);
+      const bool has_planes = summary.version >= kFirstVersionWithPlanes;
       summary.submaps.push_back({id, Count(database, "keyframe", id), Count(database, "point", id),
                                  Count(database, "line", id),
-                                 summary.version >= 2 ? Count(database, "plane", id) : 0});
+                                 has_planes ? Count(database, "plane", id) : 0});
     }
     return summary;
   });

@@ -52,6 +52,13 @@ double SquaredResidual(const PlaneFeature& feature, const Rigid3& cam_from_world
              : std::numeric_limits<double>::infinity();
 }
 
+// Extends a plane by an extent in another frame.
+void ExtendBy(const PlaneExtent& extent, const Rigid3& host_from_extent, HostedPlane* plane) {
+  PlaneExtent points = host_from_extent * extent;
+  points.insert(points.end(), plane->extent.begin(), plane->extent.end());
+  plane->extent = ConvexHull(plane->in_host, points, kMaxVertices);
+}
+
 }  // namespace
 
 void PlaneMap::AddKeyframe(const Map& map, KeyframeId keyframe, const PoseCovariance& covariance) {
@@ -77,9 +84,7 @@ void PlaneMap::AddKeyframe(const Map& map, KeyframeId keyframe, const PoseCovari
 void PlaneMap::Grow(const Map& map, const Keyframe& keyframe, const PlaneMatch& match) {
   HostedPlane& plane = planes_.at(match.plane);
   const Rigid3 host_from_cam = map.CamFromWorld(plane.host) * keyframe.cam_from_world.Inverse();
-  PlaneExtent points = host_from_cam * keyframe.frame->planes[match.feature].Extent();
-  points.insert(points.end(), plane.extent.begin(), plane.extent.end());
-  plane.extent = ConvexHull(plane.in_host, points, kMaxVertices);
+  ExtendBy(keyframe.frame->planes[match.feature].Extent(), host_from_cam, &plane);
 }
 
 void PlaneMap::MergeDuplicates(const Map& map, KeyframeId keyframe) {
@@ -119,9 +124,7 @@ void PlaneMap::Replace(const Map& map, LandmarkId replaced, LandmarkId kept) {
   const HostedPlane& other = planes_.at(replaced);
   const Rigid3 host_from_other =
       map.CamFromWorld(plane.host) * map.CamFromWorld(other.host).Inverse();
-  PlaneExtent points = host_from_other * other.extent;
-  points.insert(points.end(), plane.extent.begin(), plane.extent.end());
-  plane.extent = ConvexHull(plane.in_host, points, kMaxVertices);
+  ExtendBy(other.extent, host_from_other, &plane);
   for (auto& [id, matches] : keyframes_) {
     for (PlaneMatch& match : matches) {
       if (match.plane == replaced) match.plane = kept;

@@ -21,9 +21,9 @@ class PlaneMap {
   /// Ids of extra blocks below this one are planes.
   static constexpr int64_t kFirstBlock = -(int64_t{1} << 62);
 
-  /// Matches the planes of a keyframe of the map, whose pose has a covariance (tangent of
-  /// Rigid3Manifold), adds those that are new, extends the others by
-  /// what the keyframe shows of them, and merges duplicates.
+  /// Matches the planes of a keyframe of the map, adds those that are new, extends the others by
+  /// what the keyframe shows of them, and merges duplicates. `covariance`: of the keyframe's pose,
+  /// tangent of Rigid3Manifold.
   void AddKeyframe(const Map& map, KeyframeId keyframe, const PoseCovariance& covariance);
   /// Merges planes that a keyframe observes with others that are the same within the uncertainty
   /// of the observation, and whose extents touch. Does nothing if the keyframe is unknown.

@@ -24,16 +24,18 @@ size_t SessionOf(KeyframeId keyframe, const std::vector<MapSession>& sessions) {
   return index;
 }
 
-void AddPlanes(const SubMap& submap, OdometryResult* result) {
-  const std::optional<AxesEstimate> axes = submap.axes.Estimate();
-  const std::map<LandmarkId, int> counts = submap.planes.NumObservations();
-  for (const PlaneLandmark& landmark : submap.planes.Fitted(submap.map).InWorld(submap.map).planes) {
-    result->planes.push_back({landmark.plane, landmark.extent, counts.at(landmark.id),
-                              axes ? AxisOfPlane(*axes, landmark.plane) : std::nullopt});
-  }
-}
-
 }  // namespace
+
+std::vector<MapPlane> MakeMapPlanes(const PlaneMap& planes, const Map& map,
+                                    const std::optional<AxesEstimate>& axes) {
+  const std::map<LandmarkId, int> counts = planes.NumObservations();
+  std::vector<MapPlane> result;
+  for (const PlaneLandmark& landmark : planes.InWorld(map).planes) {
+    result.push_back({landmark.plane, landmark.extent, counts.at(landmark.id),
+                      axes ? AxisOfPlane(*axes, landmark.plane) : std::nullopt});
+  }
+  return result;
+}
 
 void AddMap(const Mapper& mapper, SubMapId submap_id, OdometryResult* result) {
   const SubMap* submap = mapper.atlas().Find(submap_id);
@@ -55,7 +57,7 @@ void AddMap(const Mapper& mapper, SubMapId submap_id, OdometryResult* result) {
                              best.axis ? best.axis : submap->axes.AxisOf(line),
                              line.viewing_direction});
   }
-  AddPlanes(*submap, result);
+  result->planes = MakeMapPlanes(submap->planes, map, submap->axes.Estimate());
   result->axes = MakeAxes(submap->axes);
 }
 

@@ -55,7 +55,11 @@ std::optional<int> AxisOfLine(const AxesEstimate& axes, const LineLandmark& line
 }
 
 std::optional<int> AxisOfPlane(const AxesEstimate& axes, const Plane& plane) {
-  return AssociateAxis(axes.world_from_axes, axes.sigma, {plane.normal(), kMaxAxisAngle});
+  const Eigen::Vector3d normal = axes.world_from_axes.conjugate() * plane.normal();
+  int axis = 0;
+  normal.cwiseAbs().maxCoeff(&axis);
+  const double angle = UndirectedAngle(normal, Eigen::Vector3d(Eigen::Vector3d::Unit(axis)));
+  return angle <= kMaxAxisAngle ? std::optional<int>(axis) : std::nullopt;
 }
 
 void SceneAxes::Update(const Map& map, KeyframeId keyframe,

@@ -149,6 +149,35 @@ TEST_F(ExportCommandTest, DrawsTheSessionOfTheRun) {
 }
 #endif
 
+#ifdef MSC_VO_HAS_MCAP
+// The bag has the rest of the run.
+TEST_F(ExportCommandTest, LeavesOutImagesThatCannotBeRead) {
+  const std::vector<TimedPose> keyframes = ReadTrajectoryFile(Path("run/keyframes.txt")).poses;
+  ASSERT_GT(keyframes.size(), 1u);
+  WriteText("x/rgb/" + std::filesystem::path(ListFolder(Path("x/rgb")).front()).filename().string(),
+            "damaged");
+  EXPECT_THAT(Run({"export", Path("run"), "mcap", Path("x.mcap"), "--map", Path("x.map")}),
+              Names("x.mcap", "1 image", "/msc_vo/features/compressed"));
+  const auto bag = OpenBagFile(Path("x.mcap"));
+  EXPECT_EQ(bag->NumMessages("/msc_vo/pose"), 12);
+  EXPECT_EQ(bag->NumMessages("/msc_vo/features/compressed"),
+            static_cast<int>(keyframes.size()) - 1);
+}
+
+// A second run over the same images adds no keyframe to the map.
+TEST_F(ExportCommandTest, ReplayLeavesOutFeaturesThatAreNotInTheMap) {
+  const std::string output =
+      Run({"replay", Path("x"), "--output", Path("again"), "--map", Path("x.map"), "--quiet",
+           "--export", "mcap=" + Path("again.mcap")});
+  EXPECT_THAT(output, Names("again.mcap", "left out", "no keyframe"));
+  const auto bag = OpenBagFile(Path("again.mcap"));
+  EXPECT_EQ(bag->NumMessages("/msc_vo/pose"), 12);
+  EXPECT_EQ(bag->FindTopic("/msc_vo/features/compressed"), nullptr);
+  EXPECT_THAT(Run({"export", Path("again"), "mcap", Path("a.mcap"), "--map", Path("x.map")}, 1),
+              Names("x.map", "no keyframe"));
+}
+#endif
+
 #ifdef MSC_VO_HAS_FUSION
 TEST_F(ExportCommandTest, WritesPointsWithNormals) {
   Run({"export", Path("run"), "ply", Path("fine.ply"), "--voxel", "0.05"});
@@ -220,6 +249,10 @@ TEST_F(ExportCommandTest, OverwritesNoInput) {
   const std::string frames = ReadFile(Path("run/frames.csv"));
   EXPECT_THAT(Run({"export", Path("run"), "tum", Path("run/frames.csv")}, 1), Names("frames.csv"));
   EXPECT_EQ(ReadFile(Path("run/frames.csv")), frames);
+  const std::string planes = ReadFile(Path("run/planes.ply"));
+  EXPECT_THAT(Run({"export", Path("run"), "ply", Path("run/planes.ply")}, 1),
+              Names(Path("run/planes.ply"), "input"));
+  EXPECT_EQ(ReadFile(Path("run/planes.ply")), planes);
   const std::string camera = ReadFile(Path("x/camera.txt"));
   EXPECT_THAT(Run({"export", Path("run"), "nerfstudio", Path("x/camera.txt")}, 1),
               Names("camera.txt"));

@@ -31,6 +31,24 @@ void AddHeader(uint32_t seconds, uint32_t nanoseconds, const std::string& frame,
   bytes->Add(seconds).Add(nanoseconds).AddText(frame);
 }
 
+// The begin of an array with one marker of a type, at the time of Frame(), up to its scale.
+MessageBytes MarkerArray(const std::string& name, int32_t type) {
+  MessageBytes bytes = Cdr();
+  bytes.Add(uint32_t{1});
+  AddHeader(1305031102, 175304000, "map", &bytes);
+  bytes.AddText(name).Add(int32_t{0}).Add(type).Add(int32_t{0});
+  bytes.AddEach(Numbers{0, 0, 0, 0, 0, 0, 1});
+  return bytes;
+}
+
+// The members of a marker after its colours: no text, texture or mesh.
+void EndMarker(MessageBytes* bytes) {
+  bytes->AddText("");
+  AddHeader(0, 0, "", bytes);
+  bytes->AddText("").AddArray("").Add(uint32_t{0}).AddText("").AddText("");
+  bytes->AddText("").AddArray("").Add(uint8_t{0});
+}
+
 // A camera that has walked 3 m forward, 1 m to the right and 2 m down, and turned right by 90
 // degrees. In the odometry it has not turned.
 McapFrame Frame() {
@@ -152,19 +170,13 @@ TEST_F(McapExportTest, HasTheMap) {
   cloud.AddArray(data + std::string("\7\0\0\0", 4)).Add(uint8_t{1});
   EXPECT_EQ(bag->Read("/msc_vo/map_points", 0), cloud.bytes());
 
-  MessageBytes lines = Cdr();
-  lines.Add(uint32_t{1});
-  AddHeader(1305031102, 175304000, "map", &lines);
-  lines.AddText("map_lines").Add(int32_t{0}).Add(int32_t{5}).Add(int32_t{0});
-  lines.AddEach(Numbers{0, 0, 0, 0, 0, 0, 1}).AddEach(Numbers{0.01, 0, 0});
+  MessageBytes lines = MarkerArray("map_lines", 5);
+  lines.AddEach(Numbers{0.01, 0, 0});
   for (int i = 0; i < 4; ++i) lines.Add(1.0f);
   lines.Add(int32_t{0}).Add(uint32_t{0}).Add(uint8_t{0});
   lines.Add(uint32_t{2}).AddEach(Numbers{3, -1, -2, 1, 0, 0}).Add(uint32_t{2});
   for (int i = 0; i < 2; ++i) lines.Add(1.0f).Add(0.0f).Add(51.0f / 255.0f).Add(1.0f);
-  lines.AddText("");
-  AddHeader(0, 0, "", &lines);
-  lines.AddText("").AddArray("").Add(uint32_t{0}).AddText("").AddText("");
-  lines.AddText("").AddArray("").Add(uint8_t{0});
+  EndMarker(&lines);
   EXPECT_EQ(bag->Read("/msc_vo/map_lines", 0), lines.bytes());
 }
 
@@ -175,20 +187,14 @@ TEST_F(McapExportTest, HasPlanesAsTriangles) {
   run.planes = {{{{1.0, 2.0, 3.0}, {0.0, 2.0, 3.0}, {0.0, 0.0, 3.0}}, {255, 0, 51}}};
   const auto bag = Export(run);
   ASSERT_NE(bag->FindTopic("/msc_vo/map_planes"), nullptr);
-  MessageBytes planes = Cdr();
-  planes.Add(uint32_t{1});
-  AddHeader(1305031102, 175304000, "map", &planes);
-  planes.AddText("map_planes").Add(int32_t{0}).Add(int32_t{11}).Add(int32_t{0});
-  planes.AddEach(Numbers{0, 0, 0, 0, 0, 0, 1}).AddEach(Numbers{1, 1, 1});
+  MessageBytes planes = MarkerArray("map_planes", 11);
+  planes.AddEach(Numbers{1, 1, 1});
   for (int i = 0; i < 3; ++i) planes.Add(1.0f);
   planes.Add(0.5f);
   planes.Add(int32_t{0}).Add(uint32_t{0}).Add(uint8_t{0});
   planes.Add(uint32_t{3}).AddEach(Numbers{3, -1, -2, 3, 0, -2, 3, 0, 0}).Add(uint32_t{3});
   for (int i = 0; i < 3; ++i) planes.Add(1.0f).Add(0.0f).Add(51.0f / 255.0f).Add(0.5f);
-  planes.AddText("");
-  AddHeader(0, 0, "", &planes);
-  planes.AddText("").AddArray("").Add(uint32_t{0}).AddText("").AddText("");
-  planes.AddText("").AddArray("").Add(uint8_t{0});
+  EndMarker(&planes);
   EXPECT_EQ(bag->Read("/msc_vo/map_planes", 0), planes.bytes());
 }
 

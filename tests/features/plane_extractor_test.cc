@@ -9,6 +9,7 @@
 
 #include "tests/features/depth_images.h"
 #include "tests/support/lenses.h"
+#include "tests/support/polygon_area.h"
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
@@ -47,14 +48,23 @@ TEST(PlaneExtractor, FindsWallAndFloor) {
   EXPECT_LT(planes[0].Normal().z(), 0.0) << "towards the camera";
 }
 
-TEST(PlaneExtractor, IsExactThroughAWideLens) {
+struct WideView {
+  PinholeCamera camera;  // undistorted
+  std::vector<PlaneFeature> planes;
+};
+
+WideView WallThroughAWideLens() {
   PinholeCamera camera = WideCamera();
   LensDistortion lens = WideLens();
   CropToFieldOfView(100.0, &lens, &camera);
   const cv::Mat depth = DrawDepth(*lens.recorded, [&](const Vector2d& pixel) {
     return std::max(0.0, kWall.dot(camera.Ray(lens.Undistort(camera, pixel))));
   });
-  const auto planes = PlaneExtractor({}, camera, lens).Extract(depth);
+  return {camera, PlaneExtractor({}, camera, lens).Extract(depth)};
+}
+
+TEST(PlaneExtractor, IsExactThroughAWideLens) {
+  const auto [camera, planes] = WallThroughAWideLens();
   ASSERT_EQ(planes.size(), 1u);
   EXPECT_LT((planes[0].inverse_depth - kWall).norm(), 1e-4);
 }
@@ -168,13 +178,7 @@ TEST(PlaneExtractor, HasTheHullOfItsPixels) {
 }
 
 TEST(PlaneExtractor, HasTheHullOfItsPixelsThroughAWideLens) {
-  PinholeCamera camera = WideCamera();
-  LensDistortion lens = WideLens();
-  CropToFieldOfView(100.0, &lens, &camera);
-  const cv::Mat depth = DrawDepth(*lens.recorded, [&](const Vector2d& pixel) {
-    return std::max(0.0, kWall.dot(camera.Ray(lens.Undistort(camera, pixel))));
-  });
-  const auto planes = PlaneExtractor({}, camera, lens).Extract(depth);
+  const auto [camera, planes] = WallThroughAWideLens();
   ASSERT_EQ(planes.size(), 1u);
   ASSERT_GE(planes[0].hull.size(), 4u);
   for (const Vector2d& vertex : planes[0].hull) {

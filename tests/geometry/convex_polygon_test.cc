@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "tests/support/polygon_area.h"
 #include <gtest/gtest.h>
 
 namespace msc_vo {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <memory>
 
 #include "tests/map_file/random_map.h"
 #include "tests/support/message_matchers.h"
@@ -131,34 +133,112 @@ TEST_F(MapFileDamageTest, RefusesRowsThatDoNotFit) {
   EXPECT_THAT(Problem(), IsEmpty());
 }
 
-TEST_F(MapFileDamageTest, RefusesPlanesThatDoNotFit) {
-  MapContents contents;
-  contents.sessions.push_back({0, "first"});
-  contents.submaps.push_back(WithPlanes(random_.Make(4)));
-  SaveMap(path_, std::move(contents));
-  const std::string valid = Read();
-  ASSERT_THAT(Problem(), IsEmpty());
-  for (const char* sql :
-       {"UPDATE plane SET d = d + 1 WHERE id = 1", "UPDATE plane SET nx = 2 WHERE id = 1",
-        "UPDATE plane SET id = -1 WHERE id = 1", "UPDATE plane SET submap = 4",
-        "UPDATE plane SET host = 9 WHERE id = 1",
-        "UPDATE plane SET extent = substr(extent, 1, 8) WHERE id = 1",
-        "UPDATE plane SET extent = x'01000000000000000000000000' WHERE id = 1",
-        "UPDATE plane SET extent = extent || x'00' WHERE id = 1",
-        "UPDATE plane SET observations = x'' WHERE id = 1",
-        "UPDATE plane SET observations = x'1000' WHERE id = 1",
-        "UPDATE plane SET observations = x'0008' WHERE id = 1",
-        "UPDATE plane SET observations = x'0000' WHERE id = 2",
-        "UPDATE plane SET observations = x'0000' WHERE id = 0",
-        "UPDATE plane_features SET planes = substr(planes, 1, 30)",
-        "UPDATE plane_features SET planes = zeroblob(length(planes))",
-        "UPDATE plane_features SET planes = x'' WHERE keyframe = 1",
-        "UPDATE plane_features SET keyframe = 9 WHERE keyframe = 1",
-        "DELETE FROM plane_features WHERE keyframe = 1", "UPDATE submap SET plane_noise = 0"}) {
-    Write(valid);
-    Change(sql);
-    EXPECT_THAT(Problem(), Names(path_, "damaged")) << sql;
+// Changes and the reasons why they are refused.
+struct Damage {
+  std::string sql, reason;
+};
+
+// Replaces bytes of the first plane of a keyframe: 3 numbers of 4 bytes are the plane, 6 its
+// covariance, 6 the mean of squared rays.
+std::string ReplacePlaneBytes(int offset, const std::string& hex) {
+  const auto size = static_cast<int>(hex.size() / 2);
+  return "UPDATE plane_features SET planes = CAST(substr(planes, 1, " + std::to_string(offset) +
+         ") || x'" + hex + "' || substr(planes, " + std::to_string(offset + size + 1) +
+         ") AS BLOB) WHERE keyframe = 1";
+}
+
+class PlaneDamageTest : public MapFileDamageTest {
+ protected:
+  void SetUp() override {
+    MapFileDamageTest::SetUp();
+    std::filesystem::remove(path_);
+    MapContents contents;
+    contents.sessions.push_back({0, "first"});
+    contents.submaps.push_back(WithPlanes(random_.Make(4)));
+    SaveMap(path_, std::move(contents));
+    valid_ = Read();
+    ASSERT_THAT(Problem(), IsEmpty());
   }
+  void ExpectRefused(const std::vector<Damage>& damages) const {
+    for (const Damage& damage : damages) {
+      Write(valid_);
+      Change(damage.sql);
+      EXPECT_THAT(Problem(), Names(path_, "damaged", damage.reason)) << damage.sql;
+    }
+  }
+
+  std::string valid_;
+};
+
+TEST_F(PlaneDamageTest, RefusesPlanesThatDoNotFit) {
+  ExpectRefused(
+      {{"UPDATE plane SET d = d + 1 WHERE id = 1", "its extent is elsewhere"},
+       {"UPDATE plane SET nx = 2 WHERE id = 1", "its parameters are not valid"},
+       {"UPDATE plane SET id = -1 WHERE id = 1", "its id is not possible"},
+       {"UPDATE plane SET id = 1 << 34 WHERE id = 4", "its id is not possible"},
+       {"UPDATE plane SET submap = 4", "its submap does not exist"},
+       {"UPDATE plane SET host = 9 WHERE id = 1", "its host does not exist"},
+       {"UPDATE plane SET extent = substr(extent, 1, 8) WHERE id = 1", "too few bytes"},
+       {"UPDATE plane SET extent = x'01000000000000000000000000' WHERE id = 1",
+        "a polygon of one or two vertices"},
+       {"UPDATE plane SET extent = CAST(extent || x'00' AS BLOB) WHERE id = 1", "too many bytes"},
+       {"UPDATE submap SET plane_noise = 0", "noise"}});
+}
+
+TEST_F(PlaneDamageTest, RefusesObservationsThatDoNotFit) {
+  ExpectRefused(
+      {{"UPDATE plane SET observations = x'' WHERE id = 1", "no keyframe observes it"},
+       {"UPDATE plane SET observations = x'1000' WHERE id = 1",
+        "a keyframe that observes it is not in its submap"},
+       {"UPDATE plane SET observations = x'0008' WHERE id = 1",
+        "a feature that observes it does not exist"},
+       {"UPDATE plane SET observations = x'0000' WHERE id = 2", "a feature observes two planes"},
+       {"UPDATE plane SET observations = x'0000' WHERE id = 0", "its checksum does not fit"},
+       // Feature 1 of keyframe 2, then of the one before it.
+       {"UPDATE plane SET observations = x'04020102' WHERE id = 1",
+        "its keyframes are not in order"},
+       // Feature 1 of keyframe 1, then of the one that is as much later as 64 bits can say.
+       {"UPDATE plane SET observations = x'0202feffffffffffffffff0102' WHERE id = 1",
+        "its keyframes are not in order"}});
+}
+
+TEST_F(PlaneDamageTest, RefusesFeaturesThatDoNotFit) {
+  ExpectRefused(
+      {{"UPDATE plane_features SET planes = substr(planes, 1, 30)", "too few bytes"},
+       {"UPDATE plane_features SET planes = zeroblob(length(planes))", "a plane at infinity"},
+       {"UPDATE plane_features SET planes = x'' WHERE keyframe = 1", "checksum"},
+       {"UPDATE plane_features SET keyframe = 9 WHERE keyframe = 1", "checksum"},
+       {"DELETE FROM plane_features WHERE keyframe = 1", "does not exist"},
+       {ReplacePlaneBytes(0, "0000c07f"), "a number that is not finite"},
+       {ReplacePlaneBytes(12, "000080bf"), "a covariance that is not positive"},
+       {ReplacePlaneBytes(12, "00000000"), "a covariance that is not positive"},
+       // Means of the squared rays: -1 in x, 1.5 in x and y together, 2 and 1.00001 in z.
+       {ReplacePlaneBytes(36, "000080bf"), "a mean of squared rays that is not possible"},
+       {ReplacePlaneBytes(40, "0000c03f"), "a mean of squared rays that is not possible"},
+       {ReplacePlaneBytes(56, "00000040"), "a mean of squared rays that is not possible"},
+       {ReplacePlaneBytes(56, "5400803f"), "a mean of squared rays that is not possible"},
+       {ReplacePlaneBytes(60, "000000"), "a plane without pixels"},
+       {ReplacePlaneBytes(63, "0d"), "a hull of too many vertices"},
+       {ReplacePlaneBytes(63, "02"), "a polygon of one or two vertices"}});
+}
+
+// Other programs may order vertices in another way.
+TEST_F(PlaneDamageTest, TurnsPolygonsCounterclockwise) {
+  MapContents contents = LoadMap(path_);
+  SavedSubMap& submap = contents.submaps[0];
+  const Keyframe& keyframe = *submap.map.FindKeyframe(1);
+  const ConvexPolygon hull = keyframe.frame->planes[2].hull;
+  const auto frame = std::make_shared<Frame>(*keyframe.frame);
+  std::reverse(frame->planes[2].hull.begin(), frame->planes[2].hull.end());
+  submap.map.SetFrame(1, frame);
+  const PlaneExtent extent = submap.planes.planes.at(1).extent;
+  std::reverse(submap.planes.planes.at(1).extent.begin(), submap.planes.planes.at(1).extent.end());
+  SaveMap(Path("turned.map"), std::move(contents));
+  const MapContents loaded = LoadMap(Path("turned.map"));
+  EXPECT_EQ(loaded.submaps[0].map.FindKeyframe(1)->frame->planes[2].hull, hull);
+  const PlaneExtent& turned = loaded.submaps[0].planes.planes.at(1).extent;
+  ASSERT_EQ(turned.size(), extent.size());
+  for (size_t i = 0; i < extent.size(); ++i) EXPECT_LT((turned[i] - extent[i]).norm(), 1e-6);
 }
 
 // Every changed byte is noticed, or belongs to no row.

@@ -60,6 +60,25 @@ TEST_F(MapVersionsTest, ReadsVersion1) {
   EXPECT_NEAR(line.depth_offset, 68e-6, 1e-9);
 }
 
+TEST_F(MapVersionsTest, ReadsThePlanesOfVersion2) {
+  const std::string path = Copy("version_2.map");
+  EXPECT_NO_THROW(CheckMap(path));
+  EXPECT_EQ(SummarizeMap(path).version, 2);
+  const MapContents contents = LoadMap(path);
+  ASSERT_EQ(contents.submaps.size(), 1u);
+  EXPECT_EQ(contents.submaps[0].map.keyframes().size(), 7u);
+  const SavedPlanes& planes = contents.submaps[0].planes;
+  ASSERT_EQ(planes.planes.size(), 6u);
+  const HostedPlane& plane = planes.planes.at(0);
+  EXPECT_EQ(plane.host, 3);
+  EXPECT_NEAR(plane.in_host.normal().x(), -0.246114271881892, 1e-12);
+  EXPECT_NEAR(plane.in_host.offset(), 2.56277679562133, 1e-12);
+  ASSERT_EQ(plane.extent.size(), 9u);
+  for (const Eigen::Vector3d& vertex : plane.extent) {
+    EXPECT_LT((vertex - Project(plane.in_host, vertex)).norm(), 1e-9);
+  }
+}
+
 TEST_F(MapVersionsTest, ExtendsVersion1) {
   const std::string path = Copy("version_1.map");
   MapWriter writer(path);

@@ -162,6 +162,7 @@ inline SavedSubMap WithPlanes(Map map) {
       hosted.host = id;
       hosted.in_host = Plane({0.6, 0.0, -0.8}, 1.5 + 0.1 * static_cast<double>(id));
       hosted.extent = {{0.0, 0.0, 1.0}, {0.0, 1.0, 1.0}, {1.0, 1.0, 1.0}};
+      for (Eigen::Vector3d& vertex : hosted.extent) vertex = Project(hosted.in_host, vertex);
     }
     submap.planes.observations[id] = {{2, 3}, {0, 10 + id}};
   }

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/plane_features.h"
 #include <gtest/gtest.h>
 
 #include "msc_vo/geometry/so3.h"
@@ -18,14 +19,6 @@ namespace msc_vo {
 namespace {
 
 const Plane kWall({0.0, 0.0, -1.0}, 2.0), kFloor({0.0, -1.0, 0.0}, 1.4);
-
-PlaneFeature FeatureOf(const Plane& in_cam) {
-  PlaneFeature feature;
-  feature.inverse_depth = -in_cam.normal() / in_cam.offset();
-  feature.covariance = 1.6e-5 * Eigen::Matrix3d::Identity();
-  feature.mean_square_ray = Eigen::Vector3d(0.1, 0.06, 1.0).asDiagonal();
-  return feature;
-}
 
 // Three keyframes that see a wall and the floor.
 class PlaneMapTest : public testing::Test {

@@ -6,20 +6,13 @@
 #include <cmath>
 #include <utility>
 
+#include "tests/support/plane_features.h"
 #include <gtest/gtest.h>
 
 #include "msc_vo/geometry/so3.h"
 
 namespace msc_vo {
 namespace {
-
-PlaneFeature FeatureOf(const Plane& in_cam) {
-  PlaneFeature feature;
-  feature.inverse_depth = -in_cam.normal() / in_cam.offset();
-  feature.covariance = 1.6e-5 * Eigen::Matrix3d::Identity();
-  feature.mean_square_ray = Eigen::Vector3d(0.1, 0.06, 1.0).asDiagonal();
-  return feature;
-}
 
 MapPlanes MapOf(const std::vector<Plane>& planes) {
   MapPlanes map;

@@ -37,20 +37,24 @@ class PlyFileTest : public TemporaryFolder {
   }
 };
 
+// Expects parts of a file and its end.
+void ExpectFile(const std::string& text, const std::vector<std::string>& parts,
+                const std::string& end) {
+  for (const std::string& part : parts) EXPECT_THAT(text, HasSubstr(part));
+  EXPECT_THAT(text, testing::EndsWith(end));
+}
+
 TEST_F(PlyFileTest, WritesPoints) {
-  EXPECT_THAT(FormatPointsPly({{{1.0, 2.0, 3.0}, 4}}),
-              AllOf(HasSubstr("element vertex 1\n"),
-                    testing::EndsWith("end_header\n1.000000 2.000000 3.000000 4\n")));
+  ExpectFile(FormatPointsPly({{{1.0, 2.0, 3.0}, 4}}), {"element vertex 1\n"},
+             "end_header\n1.000000 2.000000 3.000000 4\n");
 }
 
 TEST_F(PlyFileTest, ColoursLinesByAxis) {
-  EXPECT_THAT(FormatLinesPly(kLines),
-              AllOf(HasSubstr("element vertex 6\n"), HasSubstr("element edge 3\n"),
-                    HasSubstr("\n0.000000 0.000000 1.000000 0.000000 -0.600000 -0.800000 "
-                              "255 0 0 5\n"),
-                    HasSubstr("1.000000 2.000000 1.000000 0.000000 -1.000000 0.000000 "
-                              "128 0 128 7\n"),
-                    testing::EndsWith("0 0 0 6\n0 1 255 0 0\n2 3 128 0 128\n4 5 0 0 0\n")));
+  ExpectFile(FormatLinesPly(kLines),
+             {"element vertex 6\n", "element edge 3\n",
+              "\n0.000000 0.000000 1.000000 0.000000 -0.600000 -0.800000 255 0 0 5\n",
+              "\n1.000000 2.000000 1.000000 0.000000 -1.000000 0.000000 128 0 128 7\n"},
+             "0 0 0 6\n0 1 255 0 0\n2 3 128 0 128\n4 5 0 0 0\n");
 }
 
 TEST_F(PlyFileTest, ReadsWrittenLines) {
@@ -93,13 +97,11 @@ std::vector<MapPlane> MakePlanes() {
 }
 
 TEST_F(PlyFileTest, WritesPlanesAsFaces) {
-  EXPECT_THAT(FormatPlanesPly(MakePlanes()),
-              AllOf(HasSubstr("element vertex 7\n"), HasSubstr("element face 2\n"),
-                    HasSubstr("\n1.000000 1.000000 2.000000 0.000000 0.000000 -1.000000 "
-                              "0 0 255 7\n"),
-                    HasSubstr("\n0.000000 1.000000 1.250000 0.600000 0.000000 -0.800000 "
-                              "128 128 128 3\n"),
-                    testing::EndsWith("\n4 0 1 2 3\n3 4 5 6\n")));
+  ExpectFile(FormatPlanesPly(MakePlanes()),
+             {"element vertex 7\n", "element face 2\n",
+              "\n1.000000 1.000000 2.000000 0.000000 0.000000 -1.000000 0 0 255 7\n",
+              "\n0.000000 1.000000 1.250000 0.600000 0.000000 -0.800000 128 128 128 3\n"},
+             "\n4 0 1 2 3\n3 4 5 6\n");
 }
 
 TEST_F(PlyFileTest, ReadsWrittenPlanes) {

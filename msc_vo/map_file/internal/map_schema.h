@@ -3,12 +3,21 @@
 
 #pragma once
 
+#include <cstdint>
+
 #include "msc_vo/map_file/internal/sqlite_database.h"
 
 namespace msc_vo {
 
 /// Version of the tables, docs/map_file.md.
 constexpr int kMapFileVersion = 2;
+/// The first version with the tables of planes.
+constexpr int kFirstVersionWithPlanes = 2;
+
+/// Largest ids of keyframes and landmarks, because the memory of some algorithms grows with them: a
+/// year of keyframes, and a hundred landmarks for each.
+constexpr int64_t kMaxKeyframes = int64_t{1} << 26;
+constexpr int64_t kMaxLandmarks = int64_t{1} << 33;
 
 /// Whether the file has no tables at all: it is new, or a run was killed before it wrote anything.
 bool IsEmptyDatabase(const SqliteDatabase& database);

@@ -10,8 +10,12 @@
 #include <utility>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 
+#include "msc_vo/geometry/convex_polygon.h"
+#include "msc_vo/geometry/plane_extent.h"
 #include "msc_vo/map_file/internal/blob.h"
+#include "msc_vo/map_file/internal/map_schema.h"
 #include "msc_vo/map_file/internal/row.h"
 
 namespace msc_vo {
@@ -19,9 +23,13 @@ namespace msc_vo {
 namespace {
 
 constexpr int kNumColumns = 10;
-// The ids of planes name blocks of a window.
-constexpr int64_t kMaxPlanes = int64_t{1} << 33;
 constexpr size_t kMaxVertices = 255;
+// Ten times the largest error of a number that was rounded to 32 bits, relative to the largest of
+// those that it is computed with.
+constexpr double kRounding = 6e-7;
+// Largest angle, radians, by which a plane has turned since it was extended: version 0.2 wrote its
+// extent as it was then.
+constexpr double kLargestTurn = 0.1;
 
 // The upper triangle of a symmetric matrix, by rows.
 void Put(const Eigen::Matrix3d& matrix, BlobWriter* blob) {
@@ -55,6 +63,13 @@ void GetVertices(BlobReader* blob, Vertices* vertices) {
   }
 }
 
+// Whether a matrix can be the mean of b b^T of rays b = (x / z, y / z, 1).
+bool IsMeanSquareRay(const Eigen::Matrix3d& matrix) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(matrix, Eigen::EigenvaluesOnly);
+  return std::abs(matrix(2, 2) - 1.0) <= kRounding &&
+         eigen.eigenvalues()[0] >= -kRounding * matrix.trace();
+}
+
 PlaneFeature GetPlane(BlobReader* blob) {
   PlaneFeature plane;
   for (double& x : plane.inverse_depth) x = blob->F32();
@@ -63,9 +78,12 @@ PlaneFeature GetPlane(BlobReader* blob) {
   const int64_t num_pixels = blob->Varint();
   Require(plane.inverse_depth.norm() > 0.0, "a plane at infinity");
   Require(plane.covariance.llt().info() == Eigen::Success, "a covariance that is not positive");
+  Require(IsMeanSquareRay(plane.mean_square_ray), "a mean of squared rays that is not possible");
   Require(num_pixels > 0 && num_pixels <= INT32_MAX, "a plane without pixels");
   plane.num_pixels = static_cast<int>(num_pixels);
   GetVertices(blob, &plane.hull);
+  Require(plane.hull.size() <= PlaneFeature::kMaxHullVertices, "a hull of too many vertices");
+  plane.hull = ConvexHull(plane.hull);
   return plane;
 }
 
@@ -127,6 +145,12 @@ HostedPlane ReadPlane(RowReader* row) {
   BlobReader extent(row->Blob());
   GetVertices(&extent, &plane.extent);
   Require(extent.AtEnd(), "too many bytes");
+  for (Eigen::Vector3d& vertex : plane.extent) {
+    const Eigen::Vector3d on_plane = Project(plane.in_host, vertex);
+    Require((vertex - on_plane).norm() <= kLargestTurn * vertex.norm(), "its extent is elsewhere");
+    vertex = on_plane;
+  }
+  plane.extent = ConvexHull(plane.in_host, plane.extent, kMaxVertices);
   return plane;
 }
 
@@ -190,7 +214,7 @@ void ReadPlanes(const SqliteDatabase& database, MapContents* contents) {
   while (rows.Step()) {
     RowReader row(rows, database.path(), "plane");
     const LandmarkId id = row.Integer();
-    if (id < 0 || id > kMaxPlanes) row.Fail("its id is not possible");
+    if (id < 0 || id > kMaxLandmarks) row.Fail("its id is not possible");
     const int64_t submap_id = row.Integer();
     const auto submap =
         std::find_if(contents->submaps.begin(), contents->submaps.end(),

@@ -21,12 +21,6 @@ namespace msc_vo {
 
 namespace {
 
-// Bounds of ids, because the memory of some algorithms grows with them: a year of keyframes, and a
-// hundred landmarks for each.
-constexpr int64_t kMaxKeyframes = int64_t{1} << 26;
-constexpr int64_t kMaxLandmarks = int64_t{1} << 33;
-constexpr int kFirstVersionWithPlanes = 2;
-
 // An observation as the features of a keyframe name it.
 struct NamedObservation {
   LandmarkId landmark = kNoId;
