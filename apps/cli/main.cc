@@ -43,9 +43,11 @@ constexpr AddCommand kCommands[] = {
 
 // Images and matrices of several megabytes are allocated and freed in every frame. By default the C
 // library returns such blocks to the system at once, and page faults on the next allocation cost
-// 1 ms per frame.
+// 1 ms per frame. With an arena per thread, each thread would keep freed memory of its own, see
+// docs/lab/performance.md.
 void KeepFreedMemory() {
 #ifdef __GLIBC__
+  mallopt(M_ARENA_MAX, 1);
   mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the maximum
   mallopt(M_TRIM_THRESHOLD, 64 << 20);  // more than a frame and a local BA need
 #endif

@@ -155,6 +155,7 @@ std::string WriteResultFiles(const std::string& directory, const OdometryResult&
           &lost);
     num_bytes -= content.size();
   }
+  files.clear();  // the report needs memory, too
 
   std::string missing;
   const std::vector<TimedPose>& truth = context.sequence.ground_truth;
