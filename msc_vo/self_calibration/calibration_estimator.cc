@@ -287,7 +287,8 @@ CorrectionEstimate CalibrationEstimator::Estimate(double readout_sigma,
 
 // As long as the registration of depth may be wrong, nothing else is corrected: its error may look
 // like one of the colour camera. It is corrected together with whatever else is more likely wrong
-// than right, or not at all, because their errors may compensate each other.
+// than right, or not at all, because their errors may compensate each other; then the colour camera
+// has to be certain.
 CorrectionEstimate CalibrationEstimator::Select(double readout_sigma) const {
   const CorrectionGroups& before = estimate_.is_corrected;
   const CorrectionEstimate judged = Judge(Information(readout_sigma));
@@ -299,8 +300,11 @@ CorrectionEstimate CalibrationEstimator::Select(double readout_sigma) const {
   }
   if (pairs_.num_added() < next_registration_) wrong[kRegistration] = before[kRegistration];
   const CorrectionEstimate estimate = Estimate(readout_sigma, wrong);
+  const bool may_mix = wrong[kRegistration] && !before[kRegistration];
   for (size_t g = 0; g < wrong.size(); ++g) {
-    wrong[g] = before[g] || (wrong[g] && IsImprovement(static_cast<CorrectionGroup>(g), estimate));
+    const auto group = static_cast<CorrectionGroup>(g);
+    const bool is_clear = g == kRegistration || !may_mix || IsCertain(group, estimate.sigma);
+    wrong[g] = before[g] || (wrong[g] && is_clear && IsImprovement(group, estimate));
   }
   const bool is_in_doubt = judged.log_odds[kRegistration] > 0.0 && !wrong[kRegistration];
   const bool is_new = wrong[kRegistration] && !before[kRegistration];
