@@ -7,10 +7,9 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/LU>
-
 #include "tests/support/lenses.h"
 #include "tests/support/rolling_frames.h"
+#include <Eigen/LU>
 #include <gmock/gmock.h>
 
 #include "msc_vo/camera/undistorted_camera.h"

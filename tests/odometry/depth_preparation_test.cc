@@ -61,7 +61,9 @@ TEST(DepthPreparation, MovesDepthToTheTimeOfTheColourImage) {
   const RgbdImage after = DelayedImageWithEdge(165, kDelay);
   const RgbdImage aligned = preparation.Align(after, LeftBy(6.0));
   ExpectEdge(aligned.depth, 171);
-  EXPECT_EQ(aligned.depth_delay, 0.0);
+  EXPECT_EQ(aligned.depth_delay, kDelay);
+  ASSERT_TRUE(aligned.depth_velocity);
+  EXPECT_EQ(aligned.depth_velocity->linear, LeftBy(6.0).linear);
   EXPECT_EQ(aligned.id, 7);
   EXPECT_EQ(aligned.timestamp, 3.5);
   EXPECT_EQ(aligned.gray.data, after.gray.data);
@@ -76,7 +78,7 @@ TEST(DepthPreparation, KeepsDepthThatNeedsNoAlignment) {
   const RgbdImage delayed = DelayedImageWithEdge(165, kDelay);
   const RgbdImage unknown_velocity = preparation.Align(delayed, std::nullopt);
   EXPECT_EQ(unknown_velocity.depth.data, delayed.depth.data);
-  EXPECT_EQ(unknown_velocity.depth_delay, 0.0);
+  EXPECT_FALSE(unknown_velocity.depth_velocity);
 }
 
 // Depth images that are not registered are aligned before they are: with the camera that took them.
