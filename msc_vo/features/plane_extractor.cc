@@ -48,10 +48,6 @@ constexpr int kTrimRounds = 3;
 constexpr double kCellsOfOneError = 4.0;
 // Error that all cells of a plane have in common, in sigmas of the random part.
 constexpr double kCommonPart = 0.5;
-// Errors of focal lengths and principal point, in focal lengths: they tilt all planes but those
-// across the axis. Twice those of a camera that counts as calibrated (calibration_evidence.cc), as
-// all frames have them in common, and nothing averages them.
-constexpr double kCalibrationError = 0.01;
 // Cells of a row that are summed at once.
 constexpr int kLanes = 8;
 using Lanes = Eigen::Array<float, kLanes, 1>;
@@ -381,9 +377,6 @@ PlaneFeature PlaneExtractor::MakeFeature(const Cell& region, const std::vector<i
   plane.inverse_depth = region.inverse_depth;
   plane.covariance = kCellsOfOneError * variance * square_rays.inverse() +
                      std::pow(kCommonPart * noise_, 2) * Matrix3d::Identity();
-  const Vector3d tilt(plane.inverse_depth.x(), plane.inverse_depth.y(),
-                      plane.inverse_depth.head<2>().norm());
-  plane.covariance.diagonal() += (kCalibrationError * tilt).cwiseAbs2();
   plane.mean_square_ray = region.square_rays / region.count;
   plane.num_pixels = region.count * step_ * step_;
   plane.hull = Hull(cells);

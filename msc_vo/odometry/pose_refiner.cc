@@ -121,7 +121,8 @@ void PoseRefiner::RefineFrame(const PendingFrame& pending, const MapSnapshot& sn
   Rigid3 cam_from_world = pose->cam_from_reference * reference_from_world;
   std::vector<PoseFactor> by_planes;
   if (map == &snapshot.map) {
-    by_planes = MakePlanePoseFactors(frame->planes, pending.planes, snapshot.planes);
+    by_planes = MakePlanePoseFactors(frame->planes, pending.planes, snapshot.planes,
+                                     PlanesBeside::kPointsAndLines);
   }
   const PoseSummary summary = EstimateFramePose(options_, *frame, *map, snapshot.noise_scale,
                                                 by_planes, &cam_from_world, &matches);

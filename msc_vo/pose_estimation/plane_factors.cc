@@ -35,8 +35,17 @@ class FixedPlaneObservation : public CostFunctor<FixedPlaneObservation, 3, 7> {
   Plane plane_;
 };
 
-PlaneObservation Observe(const PlaneFeature& feature, double noise) {
-  return {feature.inverse_depth, noise * noise * feature.covariance};
+// Errors of focal lengths and principal point, in focal lengths: they tilt all planes but those
+// across the axis. Twice those of a camera that counts as calibrated (calibration_evidence.cc), as
+// all frames have them in common, and nothing averages them.
+constexpr double kCalibrationError = 0.01;
+
+PlaneObservation Observe(const PlaneFeature& feature, double noise, double calibration_error) {
+  const Eigen::Vector3d& q = feature.inverse_depth;
+  const Eigen::Vector3d tilt(q.x(), q.y(), q.head<2>().norm());
+  Eigen::Matrix3d covariance = noise * noise * feature.covariance;
+  covariance.diagonal() += (calibration_error * tilt).cwiseAbs2();
+  return {q, covariance};
 }
 
 const std::shared_ptr<const ceres::LossFunction>& Loss() {
@@ -49,22 +58,28 @@ const std::shared_ptr<const ceres::LossFunction>& Loss() {
 
 std::vector<PoseFactor> MakePlanePoseFactors(const std::vector<PlaneFeature>& features,
                                              const std::vector<PlaneMatch>& matches,
-                                             const MapPlanes& map) {
+                                             const MapPlanes& map, PlanesBeside beside) {
+  const double calibration_error =
+      beside == PlanesBeside::kPointsAndLines ? kCalibrationError : 0.0;
   std::vector<PoseFactor> factors;
   for (const PlaneMatch& match : matches) {
     const PlaneLandmark* plane = map.Find(match.plane);
     if (plane == nullptr) continue;
-    factors.push_back({"plane",
-                       FixedPlaneObservation::CreateShared(
-                           Observe(features[match.feature], map.noise), plane->plane),
-                       Loss()});
+    factors.push_back(
+        {"plane",
+         FixedPlaneObservation::CreateShared(
+             Observe(features[match.feature], map.noise, calibration_error), plane->plane),
+         Loss()});
   }
   return factors;
 }
 
 CustomFactor MakePlaneFactor(const PlaneFeature& feature, double noise, const BlockId& pose,
                              const BlockId& plane) {
-  return {"plane", PlaneObservation::CreateShared(Observe(feature, noise)), Loss(), {pose, plane}};
+  return {"plane",
+          PlaneObservation::CreateShared(Observe(feature, noise, kCalibrationError)),
+          Loss(),
+          {pose, plane}};
 }
 
 }  // namespace msc_vo

@@ -13,11 +13,15 @@
 
 namespace msc_vo {
 
+/// What else determines a pose. Errors of the calibration tilt planes as they have tilted those of
+/// the map, and only points and lines contradict them.
+enum class PlanesBeside { kPointsAndLines, kNothing };
+
 /// Factors over the pose of a frame: its matched planes, those of the map held fixed
 /// (PlaneObservation). Matches with planes that are no longer in the map are left out.
 std::vector<PoseFactor> MakePlanePoseFactors(const std::vector<PlaneFeature>& features,
                                              const std::vector<PlaneMatch>& matches,
-                                             const MapPlanes& map);
+                                             const MapPlanes& map, PlanesBeside beside);
 
 /// The factor of a window between a keyframe and the extra block of a plane of the map, with
 /// PlaneManifold. `noise`: MapPlanes::noise.

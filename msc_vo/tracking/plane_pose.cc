@@ -57,14 +57,22 @@ std::optional<PlanePose> EstimateByPlanes(const TrackerOptions& options, const F
   pose.is_determined = DetermineAPose(frame, pose.planes);
   const int many = kManyFeatures * options.min_initial_features;
   if (!pose.is_determined && NumWithDepth(frame) >= many) return std::nullopt;
-  std::vector<PoseFactor> all = MakePlanePoseFactors(frame.planes, pose.planes, snapshot.planes);
-  all.insert(all.end(), factors.begin(), factors.end());
-  if (expected.prior && !pose.is_determined) all.push_back(*expected.prior);
-  FrameMatches none;
+  const auto estimate = [&](PlanesBeside beside, Rigid3* cam_from_world) {
+    std::vector<PoseFactor> all =
+        MakePlanePoseFactors(frame.planes, pose.planes, snapshot.planes, beside);
+    all.insert(all.end(), factors.begin(), factors.end());
+    if (expected.prior && !pose.is_determined) all.push_back(*expected.prior);
+    FrameMatches none;
+    return EstimateFramePose(options.pose, frame, snapshot.map, snapshot.noise_scale, all,
+                             cam_from_world, &none);
+  };
   pose.cam_from_world = expected.cam_from_world;
-  pose.summary = EstimateFramePose(options.pose, frame, snapshot.map, snapshot.noise_scale, all,
-                                   &pose.cam_from_world, &none);
-  return pose.summary.usable ? std::make_optional(pose) : std::nullopt;
+  pose.summary = estimate(PlanesBeside::kNothing, &pose.cam_from_world);
+  if (!pose.summary.usable) return std::nullopt;
+  // Planes agree about a wrong calibration, but the covariance is that of the truth.
+  Rigid3 near = pose.cam_from_world;
+  pose.summary.covariance = estimate(PlanesBeside::kPointsAndLines, &near).covariance;
+  return pose;
 }
 
 bool DetermineAPose(const Frame& frame, const std::vector<PlaneMatch>& matches) {

@@ -273,8 +273,8 @@ TrackedFrame Tracker::TrackLocalMap(const Input& input, const FramePose& initial
         MatchPlanes(tracked.frame->planes, input.snapshot.planes, initial.cam_from_world,
                     CovarianceForMatching(initial.cam_from_world, initial.summary.covariance));
   }
-  estimator->AddFactors(
-      MakePlanePoseFactors(tracked.frame->planes, tracked.planes, input.snapshot.planes));
+  estimator->AddFactors(MakePlanePoseFactors(tracked.frame->planes, tracked.planes,
+                                             input.snapshot.planes, PlanesBeside::kPointsAndLines));
   std::optional<FramePose> refined =
       estimator->MatchAndEstimate(options_.pose, *tracked.frame, local, options_.local_map_radius,
                                   initial.cam_from_world, LandmarkInliers(initial.matches));
