@@ -15,7 +15,6 @@
 #include "msc_vo/factors/plane_manifold.h"
 #include "msc_vo/factors/plane_observation.h"
 #include "msc_vo/matching/plane_matcher.h"
-#include "msc_vo/pose_estimation/plane_factors.h"
 
 namespace msc_vo {
 
@@ -157,7 +156,7 @@ void PlaneMap::Join(PlaneMap other) {
   next_ += other.next_;
 }
 
-void PlaneMap::AddTo(const Map& map, WindowData* window) const {
+void PlaneMap::AddTo(const Map& map, PlanesBeside beside, WindowData* window) const {
   std::map<LandmarkId, int> num_observers;
   for (const WindowData::Keyframe& keyframe : window->keyframes) {
     const auto seen = keyframes_.find(keyframe.id);
@@ -175,8 +174,8 @@ void PlaneMap::AddTo(const Map& map, WindowData* window) const {
       if (num_observers[match.plane] < 2 || plane == nullptr) continue;
       const PlaneFeature& feature = features[match.feature];
       if (!std::isfinite(SquaredResidual(feature, keyframe.cam_from_world, plane->plane))) continue;
-      window->custom_factors.push_back(
-          MakePlaneFactor(feature, noise_, BlockId::Pose(keyframe.id), BlockOf(match.plane)));
+      window->custom_factors.push_back(MakePlaneFactor(
+          feature, noise_, beside, BlockId::Pose(keyframe.id), BlockOf(match.plane)));
     }
   }
   for (const auto& [id, count] : num_observers) {
@@ -193,7 +192,7 @@ PlaneMap PlaneMap::Fitted(const Map& map) const {
     const Keyframe* keyframe = map.FindKeyframe(id);
     if (keyframe != nullptr) window.keyframes.push_back({id, keyframe->cam_from_world, true});
   }
-  AddTo(map, &window);
+  AddTo(map, PlanesBeside::kNothing, &window);
   if (window.extra_blocks.empty()) return fitted;
   WindowProblem problem({}, window);
   ceres::Solver::Summary summary;

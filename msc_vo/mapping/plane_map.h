@@ -9,6 +9,7 @@
 #include "msc_vo/bundle_adjustment/window_data.h"
 #include "msc_vo/map/map.h"
 #include "msc_vo/map/plane_landmark.h"
+#include "msc_vo/pose_estimation/plane_factors.h"
 
 namespace msc_vo {
 
@@ -34,8 +35,10 @@ class PlaneMap {
   /// are in one map now.
   void Join(PlaneMap other);
 
-  /// Adds the planes that two or more keyframes of the window observe.
-  void AddTo(const Map& map, WindowData* window) const;
+  /// Adds the planes that two or more keyframes of the window observe, beside its landmarks.
+  void AddTo(const Map& map, WindowData* window) const {
+    AddTo(map, PlanesBeside::kPointsAndLines, window);
+  }
   /// Takes over the estimates of a solved window whose keyframes have been written to the map, and
   /// learns the noise from its residuals.
   void Learn(const Map& map, const WindowData& window);
@@ -62,6 +65,7 @@ class PlaneMap {
   }
 
  private:
+  void AddTo(const Map& map, PlanesBeside beside, WindowData* window) const;
   void SetEstimates(const Map& map, const WindowData& window);
   void Grow(const Map& map, const Keyframe& keyframe, const PlaneMatch& match);
   bool AreSame(const Map& map, const Keyframe& keyframe, const PlaneMatch& match,

@@ -57,7 +57,7 @@ void AddMap(const Mapper& mapper, SubMapId submap_id, OdometryResult* result) {
                              best.axis ? best.axis : submap->axes.AxisOf(line),
                              line.viewing_direction});
   }
-  result->planes = MakeMapPlanes(submap->planes, map, submap->axes.Estimate());
+  result->planes = MakeMapPlanes(submap->planes.Fitted(map), map, submap->axes.Estimate());
   result->axes = MakeAxes(submap->axes);
 }
 

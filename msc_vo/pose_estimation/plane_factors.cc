@@ -40,11 +40,13 @@ class FixedPlaneObservation : public CostFunctor<FixedPlaneObservation, 3, 7> {
 // all frames have them in common, and nothing averages them.
 constexpr double kCalibrationError = 0.01;
 
-PlaneObservation Observe(const PlaneFeature& feature, double noise, double calibration_error) {
+PlaneObservation Observe(const PlaneFeature& feature, double noise, PlanesBeside beside) {
   const Eigen::Vector3d& q = feature.inverse_depth;
-  const Eigen::Vector3d tilt(q.x(), q.y(), q.head<2>().norm());
   Eigen::Matrix3d covariance = noise * noise * feature.covariance;
-  covariance.diagonal() += (calibration_error * tilt).cwiseAbs2();
+  if (beside == PlanesBeside::kPointsAndLines) {
+    const Eigen::Vector3d tilt(q.x(), q.y(), q.head<2>().norm());
+    covariance.diagonal() += (kCalibrationError * tilt).cwiseAbs2();
+  }
   return {q, covariance};
 }
 
@@ -59,25 +61,22 @@ const std::shared_ptr<const ceres::LossFunction>& Loss() {
 std::vector<PoseFactor> MakePlanePoseFactors(const std::vector<PlaneFeature>& features,
                                              const std::vector<PlaneMatch>& matches,
                                              const MapPlanes& map, PlanesBeside beside) {
-  const double calibration_error =
-      beside == PlanesBeside::kPointsAndLines ? kCalibrationError : 0.0;
   std::vector<PoseFactor> factors;
   for (const PlaneMatch& match : matches) {
     const PlaneLandmark* plane = map.Find(match.plane);
     if (plane == nullptr) continue;
-    factors.push_back(
-        {"plane",
-         FixedPlaneObservation::CreateShared(
-             Observe(features[match.feature], map.noise, calibration_error), plane->plane),
-         Loss()});
+    factors.push_back({"plane",
+                       FixedPlaneObservation::CreateShared(
+                           Observe(features[match.feature], map.noise, beside), plane->plane),
+                       Loss()});
   }
   return factors;
 }
 
-CustomFactor MakePlaneFactor(const PlaneFeature& feature, double noise, const BlockId& pose,
-                             const BlockId& plane) {
+CustomFactor MakePlaneFactor(const PlaneFeature& feature, double noise, PlanesBeside beside,
+                             const BlockId& pose, const BlockId& plane) {
   return {"plane",
-          PlaneObservation::CreateShared(Observe(feature, noise, kCalibrationError)),
+          PlaneObservation::CreateShared(Observe(feature, noise, beside)),
           Loss(),
           {pose, plane}};
 }

@@ -25,7 +25,7 @@ std::vector<PoseFactor> MakePlanePoseFactors(const std::vector<PlaneFeature>& fe
 
 /// The factor of a window between a keyframe and the extra block of a plane of the map, with
 /// PlaneManifold. `noise`: MapPlanes::noise.
-CustomFactor MakePlaneFactor(const PlaneFeature& feature, double noise, const BlockId& pose,
-                             const BlockId& plane);
+CustomFactor MakePlaneFactor(const PlaneFeature& feature, double noise, PlanesBeside beside,
+                             const BlockId& pose, const BlockId& plane);
 
 }  // namespace msc_vo

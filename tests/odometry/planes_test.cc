@@ -97,6 +97,28 @@ TEST_F(PlanesTest, AreInTheResultWithTheirExtents) {
   EXPECT_GE(num_large, 3) << areas.str();
 }
 
+// Fitted to all keyframes, not as the last window left them.
+TEST_F(PlanesTest, AreInTheResultAsInAMapFile) {
+  Odometry odometry({}, sequence_.camera(), LensDistortion());
+  for (const RgbdImage& image : images_) odometry.Process(image);
+  const MapSnapshotPtr snapshot = odometry.Map();
+  const std::optional<MapContents> maps = odometry.ShareMaps("run");
+  const OdometryResult result = odometry.Finish();
+  ASSERT_TRUE(maps && maps->submaps.size() == 1);
+  const SavedSubMap& submap = maps->submaps[0];
+  ASSERT_EQ(submap.planes.planes.size(), result.planes.size());
+  double largest_change = 0.0;
+  size_t i = 0;
+  for (const auto& [id, hosted] : submap.planes.planes) {
+    const Plane saved = submap.map.CamFromWorld(hosted.host).Inverse() * hosted.in_host;
+    const Plane& plane = result.planes[i++].plane;
+    EXPECT_LT((saved.params - plane.params).norm(), 1e-9);
+    const PlaneLandmark& of_window = *snapshot->planes.Find(id);
+    largest_change = std::max(largest_change, (of_window.plane.params - plane.params).norm());
+  }
+  EXPECT_GT(largest_change, 1e-5);
+}
+
 TEST_F(PlanesTest, GiveTheSamePosesAtAnyNumberOfThreadsAndAfterACheckpoint) {
   OdometryOptions one, two;
   one.threads = 1;
