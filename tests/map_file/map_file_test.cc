@@ -206,6 +206,21 @@ TEST_F(MapFileTest, LoadsThePlanesThatWereSaved) {
   ExpectSamePlanes(load(), saved);
 }
 
+// Corrections of the map turn a plane, but not the extent that it had before.
+TEST_F(MapFileTest, SavesExtentsOnPlanesThatHaveTurned) {
+  SavedSubMap saved = WithPlanes(random_.Make(4));
+  HostedPlane& turned = saved.planes.planes.at(3);
+  turned.in_host = Plane({0.28, 0.0, -0.96}, turned.in_host.offset());  // by 0.36 rad
+  PlaneExtent extent;
+  for (const Eigen::Vector3d& x : turned.extent) extent.push_back(Project(turned.in_host, x));
+  MapContents contents;
+  contents.sessions.push_back({0, "first"});
+  contents.submaps.push_back(std::move(saved));
+  SaveMap(Path("home.map"), std::move(contents));
+  const MapContents loaded = LoadMap(Path("home.map"));
+  ExpectSameExtent(loaded.submaps[0].planes.planes.at(0).extent, extent);
+}
+
 TEST_F(MapFileTest, LeavesOutFeaturesThatObserveNothing) {
   Map map = random_.Make(3);
   SaveMap(Path("home.map"), AsContents(map.Share()));

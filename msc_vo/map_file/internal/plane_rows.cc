@@ -27,8 +27,8 @@ constexpr size_t kMaxVertices = 255;
 // Ten times the largest error of a number that was rounded to 32 bits, relative to the largest of
 // those that it is computed with.
 constexpr double kRounding = 6e-7;
-// Largest angle, radians, by which a plane has turned since it was extended: version 0.2 wrote its
-// extent as it was then.
+// Largest angle, radians, by which a plane has turned since it was extended: the first writers of
+// version 2 wrote its extent as it was then.
 constexpr double kLargestTurn = 0.1;
 
 // The upper triangle of a symmetric matrix, by rows.
@@ -135,6 +135,13 @@ void ReadObservations(std::string_view bytes, LandmarkId plane, SavedSubMap* sub
   }
 }
 
+// The extent on the plane as it is now.
+PlaneExtent OnPlane(const HostedPlane& plane) {
+  PlaneExtent extent = plane.extent;
+  for (Eigen::Vector3d& vertex : extent) vertex = Project(plane.in_host, vertex);
+  return extent;
+}
+
 HostedPlane ReadPlane(RowReader* row) {
   HostedPlane plane;
   plane.host = row->Integer();
@@ -186,7 +193,7 @@ void WritePlanes(const SqliteDatabase& database, const MapContents& contents) {
       row.Integer(id++).Integer(submap.id).Integer(plane.host);
       for (const double x : plane.in_host.params) row.Real(x);
       BlobWriter extent;
-      PutVertices(plane.extent, &extent);
+      PutVertices(OnPlane(plane), &extent);
       const std::string observed = Encode(observations.at(plane_id));
       row.Blob(extent.bytes()).Blob(observed).Execute();
     }
