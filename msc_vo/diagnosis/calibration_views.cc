@@ -50,6 +50,7 @@ CalibrationSequence MakeCalibrationViews(const RgbdDecoder& decoder,
     RgbdImage image = decoder.Decode(static_cast<int>(result.frames[i].id));
     if (velocity && image.depth_delay != 0.0) {
       image.depth = AlignDepth(calibration.camera, image.depth, velocity->Over(image.depth_delay));
+      image.depth_velocity = velocity;
     }
     Frame frame = builder.Build(image);
     if (velocity && result.readout_time != 0.0) {

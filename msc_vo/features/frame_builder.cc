@@ -35,7 +35,8 @@ void CheckImage(const cv::Mat& image, int type, const PinholeCamera& camera, con
 }
 
 // Between the times of both images, the camera moves in a way that is not known, or was predicted
-// from the last two frames: of hand-held cameras, the velocity and its change in 1/30 s.
+// from the last two frames: of hand-held cameras, the velocity and its change in 1/30 s. That
+// planes are moved again by a better velocity does not make it smaller.
 void AddMotionNoise(const RgbdImage& image, std::vector<PlaneFeature>* planes) {
   const double turn = image.depth_velocity ? 0.2 : 1.0;   // radians/second
   const double speed = image.depth_velocity ? 0.1 : 0.5;  // metres/second

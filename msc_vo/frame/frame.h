@@ -59,8 +59,8 @@ struct Frame {
   /// time, seconds.
   std::optional<CameraVelocity> velocity;
   double readout_time = 0.0;
-  /// Of `planes`; depths of points and lines hardly change where a surface turns by the error of a
-  /// velocity.
+  /// Of `planes`: half a degree, which the error of a velocity turns them by, matters to them, and
+  /// hardly to depths.
   DepthMotion depth_motion = {};
 
   /// Position in camera coordinates (metres) of a point that has a depth.

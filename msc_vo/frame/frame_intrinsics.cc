@@ -80,6 +80,8 @@ std::shared_ptr<const Frame> ChangeIntrinsics(
   moved->camera = intrinsics->camera;
   if (moved->lens) moved->lens = intrinsics->distortion;
   if (intrinsics->registration && !from.registration) RemoveDepths(&*moved);
+  // Planes that another registration has bent cannot be measured again without the depth image.
+  if (!HasSameRegistration(*intrinsics, from)) moved->planes.clear();
   MovePlanes(from.camera, intrinsics->camera, &moved->planes);
   if (from.distortion.IsZero() && intrinsics->distortion.IsZero()) return moved;
   const auto move = [&](const Eigen::Vector2d& pixel, double* /*inverse_depth*/) {

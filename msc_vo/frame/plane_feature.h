@@ -39,11 +39,14 @@ struct PlaneFeature {
   /// of it is near enough.
   PlaneExtent Extent() const;
 
-  /// Moves the plane, but neither covariance nor extent, which hardly change in small motions.
-  void Move(const Rigid3& motion) {
+  /// Changes the camera frame of the plane, but of neither covariance nor extent, which hardly
+  /// change in small motions. Keeps a plane whose distance would change by more than half, as by
+  /// the velocity of a wrong pose.
+  void Move(const Rigid3& new_from_old) {
     // With a point x, q . x = 1.
-    const Eigen::Vector3d turned = motion.rotation() * inverse_depth;
-    inverse_depth = turned / (1.0 + turned.dot(motion.translation()));
+    const Eigen::Vector3d turned = new_from_old.rotation() * inverse_depth;
+    const double change = turned.dot(new_from_old.translation());
+    if (std::abs(change) < 0.5) inverse_depth = turned / (1.0 + change);
   }
   /// Adds the noise of an unknown motion of the camera: standard deviations of its rotation vector
   /// (radians) and of its translation (metres).

@@ -38,7 +38,8 @@ Frame CompensateRollingShutter(const Frame& frame, const CameraVelocity& velocit
                                double readout_time);
 
 /// Moves the planes of a frame, whose depth image was taken at another time than its colour image,
-/// to where this velocity of the camera says that they are.
+/// to the time stamp with another velocity than before (Frame::depth_motion). Covariances and hulls
+/// stay. No effect if both images were taken at the same time.
 void SetDepthVelocity(const CameraVelocity& velocity, Frame* frame);
 
 }  // namespace msc_vo

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
 #include <vector>
 
@@ -29,6 +30,7 @@ struct PlaneLandmark {
 struct MapPlanes {
   std::vector<PlaneLandmark> planes;  ///< in order of their ids
   double noise = 1.0;                 ///< scale of the sigmas of plane features, self-calibrated
+  int64_t numbering = 0;              ///< ids of another numbering are those of other planes
 
   /// Returns nullptr if there is none.
   const PlaneLandmark* Find(LandmarkId id) const {
@@ -40,7 +42,7 @@ struct MapPlanes {
 
   template <typename Archive>
   void Serialize(Archive& archive) {
-    archive.Fields(*this, planes, noise);
+    archive.Fields(*this, planes, noise, numbering);
   }
 };
 

@@ -43,8 +43,9 @@ struct MapSnapshot {
   std::optional<AxesEstimate> axes;     ///< std::nullopt until they are found
   bool needs_axes = false;              ///< the next keyframe packet shall contain surface normals
   bool calibration_is_settled = false;  ///< self-calibration needs no further images
-  /// Images speak against the focal length or the lens: planes of depth images, which depend on
-  /// them, hide the evidence, and support points and lines only once it is gone.
+  /// Focal length, lens or registration of depth are more likely wrong than a calibration in
+  /// general, and not corrected. Planes, which depend on them, are then not used beside points and
+  /// lines: poses that agree with them would hide the error.
   bool calibration_is_doubted = false;
   InactiveMaps inactive_maps;            ///< of older segments that are not joined with this map
   std::vector<ExtraBlock> extra_blocks;  ///< as its windows have estimated them, in order of ids

@@ -102,6 +102,7 @@ void Mapper::PrepareFrame(KeyframeTask* task) {
     }
     if (packet.begins_map) BeginMap(packet);
     calibration_.CompensateMap(&submap.map);
+    submap.planes.FollowFrames(submap.map);
     task->frame_ = calibration_.BringUpToDate(packet);
   });
   if (!options_.frame_structure) return;
@@ -177,7 +178,13 @@ bool Mapper::Solve(KeyframeTask* task) {
 void Mapper::Calibrate(KeyframeTask* task) {
   MappingSummary& summary = task->summary_;
   Timed(&summary.times.calibration, [&] {
-    if (!calibration_.UpdateIntrinsics(task->packet_, map(), summary.keyframe)) return;
+    SubMap& submap = atlas_.current();
+    const bool was_doubted = calibration_.IsDoubted();
+    const bool is_changed =
+        calibration_.UpdateIntrinsics(task->packet_, submap.map, summary.keyframe);
+    // Windows have left planes where they were.
+    if (was_doubted && !calibration_.IsDoubted()) submap.planes = submap.planes.Fitted(submap.map);
+    if (!is_changed) return;
     summary.calibration = std::make_shared<CalibrationChange>(
         CalibrationChange{calibration_.intrinsics()->estimate(), atlas_.ShareAll()});
     ApplyCalibration(summary.keyframe);
@@ -229,7 +236,7 @@ void Mapper::ApplyCalibration(KeyframeId newest) {
     if (is_of_earlier_session) return;
     submap->axes = SceneAxes(options_.axes);
     submap->noise = NoiseEstimator(options_.noise);
-    submap->planes = PlaneMap();
+    submap->planes.Clear();
   });
   SubMap& submap = atlas_.current();
   optimizer_.OptimizeMap(newest, &submap);

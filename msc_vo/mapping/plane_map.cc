@@ -11,10 +11,10 @@
 #include <set>
 #include <utility>
 
-#include "msc_vo/bundle_adjustment/window_problem.h"
 #include "msc_vo/factors/plane_manifold.h"
 #include "msc_vo/factors/plane_observation.h"
 #include "msc_vo/matching/plane_matcher.h"
+#include "msc_vo/pose_estimation/plane_factors.h"
 
 namespace msc_vo {
 
@@ -28,8 +28,6 @@ constexpr double kLearningRate = 0.1;
 constexpr size_t kMinResiduals = 10;
 // Bounds of the learnt scale of sigmas.
 constexpr double kMinNoise = 0.1, kMaxNoise = 10.0;
-// Of Fitted(): a plane that is nearly right converges quadratically.
-constexpr int kFitIterations = 5;
 // Vertices of an extent: a rectangle with cut corners, and some that further views add.
 constexpr size_t kMaxVertices = 16;
 // Largest gap between parts of one plane that are merged, metres: two cells of the extractor at
@@ -154,9 +152,32 @@ void PlaneMap::Join(PlaneMap other) {
     keyframes_[keyframe] = std::move(matches);
   }
   next_ += other.next_;
+  numbering_ += other.numbering_ + 1;
 }
 
-void PlaneMap::AddTo(const Map& map, PlanesBeside beside, WindowData* window) const {
+void PlaneMap::Clear() {
+  const int64_t numbering = numbering_ + 1;
+  *this = PlaneMap();
+  numbering_ = numbering;
+}
+
+void PlaneMap::FollowFrames(const Map& map) {
+  std::map<LandmarkId, int> num_observations;
+  for (const auto& [id, matches] : keyframes_) {
+    for (const PlaneMatch& match : matches) ++num_observations[match.plane];
+  }
+  for (const auto& [id, matches] : keyframes_) {
+    const Keyframe* keyframe = map.FindKeyframe(id);
+    for (const PlaneMatch& match : matches) {
+      HostedPlane& plane = planes_.at(match.plane);
+      if (keyframe == nullptr || plane.host != id || num_observations[match.plane] > 1) continue;
+      const PlaneFeature& feature = keyframe->frame->planes[match.feature];
+      plane.in_host = Plane(feature.Normal(), feature.Distance());
+    }
+  }
+}
+
+void PlaneMap::AddTo(const Map& map, WindowData* window) const {
   std::map<LandmarkId, int> num_observers;
   for (const WindowData::Keyframe& keyframe : window->keyframes) {
     const auto seen = keyframes_.find(keyframe.id);
@@ -174,8 +195,8 @@ void PlaneMap::AddTo(const Map& map, PlanesBeside beside, WindowData* window) co
       if (num_observers[match.plane] < 2 || plane == nullptr) continue;
       const PlaneFeature& feature = features[match.feature];
       if (!std::isfinite(SquaredResidual(feature, keyframe.cam_from_world, plane->plane))) continue;
-      window->custom_factors.push_back(MakePlaneFactor(
-          feature, noise_, beside, BlockId::Pose(keyframe.id), BlockOf(match.plane)));
+      window->custom_factors.push_back(
+          MakePlaneFactor(feature, noise_, BlockId::Pose(keyframe.id), BlockOf(match.plane)));
     }
   }
   for (const auto& [id, count] : num_observers) {
@@ -186,42 +207,36 @@ void PlaneMap::AddTo(const Map& map, PlanesBeside beside, WindowData* window) co
 }
 
 PlaneMap PlaneMap::Fitted(const Map& map) const {
-  PlaneMap fitted = *this;
-  WindowData window;
+  std::map<LandmarkId, std::vector<PlaneView>> views;
   for (const auto& [id, matches] : keyframes_) {
     const Keyframe* keyframe = map.FindKeyframe(id);
-    if (keyframe != nullptr) window.keyframes.push_back({id, keyframe->cam_from_world, true});
+    if (keyframe == nullptr) continue;
+    for (const PlaneMatch& match : matches) {
+      views[match.plane].push_back(
+          {keyframe->cam_from_world, &keyframe->frame->planes[match.feature]});
+    }
   }
-  AddTo(map, PlanesBeside::kNothing, &window);
-  if (window.extra_blocks.empty()) return fitted;
-  WindowProblem problem({}, window);
-  ceres::Solver::Summary summary;
-  ceres::Solve(problem.SolverOptions(kFitIterations), problem.problem(), &summary);
-  problem.WriteBack(&window);
-  fitted.SetEstimates(map, window);
+  PlaneMap fitted = *this;
+  for (auto& [id, plane] : fitted.planes_) {
+    if (views[id].size() < 2) continue;
+    const Rigid3 host_from_world = map.CamFromWorld(plane.host);
+    Plane in_world = host_from_world.Inverse() * plane.in_host;
+    FitPlane(views[id], noise_, &in_world);
+    plane.in_host = host_from_world * in_world;
+  }
   return fitted;
 }
 
-// Takes over the estimates of a window.
-void PlaneMap::SetEstimates(const Map& map, const WindowData& window) {
-  for (const ExtraBlock& block : window.extra_blocks) {
-    if (!IsPlane(block)) continue;
-    const auto known = planes_.find(PlaneOf(block));
-    if (known == planes_.end()) continue;
-    Plane plane;
-    plane.params = block.value;
-    known->second.in_host = map.CamFromWorld(known->second.host) * plane;
-  }
-}
-
 void PlaneMap::Learn(const Map& map, const WindowData& window) {
-  SetEstimates(map, window);
   std::map<LandmarkId, Plane> estimates;
   for (const ExtraBlock& block : window.extra_blocks) {
     if (!IsPlane(block)) continue;
     Plane plane;
     plane.params = block.value;
     estimates[PlaneOf(block)] = plane;
+    const auto known = planes_.find(PlaneOf(block));
+    if (known == planes_.end()) continue;
+    known->second.in_host = map.CamFromWorld(known->second.host) * plane;
   }
   std::map<LandmarkId, std::vector<double>> of_planes;
   for (const WindowData::Keyframe& keyframe : window.keyframes) {
@@ -253,6 +268,7 @@ void PlaneMap::Learn(const Map& map, const WindowData& window) {
 MapPlanes PlaneMap::InWorld(const Map& map) const {
   MapPlanes result;
   result.noise = noise_;
+  result.numbering = numbering_;
   for (const auto& [id, plane] : planes_) {
     const Rigid3 world_from_host = map.CamFromWorld(plane.host).Inverse();
     PlaneLandmark landmark{id, world_from_host * plane.in_host, world_from_host * plane.extent};

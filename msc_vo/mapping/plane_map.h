@@ -9,7 +9,6 @@
 #include "msc_vo/bundle_adjustment/window_data.h"
 #include "msc_vo/map/map.h"
 #include "msc_vo/map/plane_landmark.h"
-#include "msc_vo/pose_estimation/plane_factors.h"
 
 namespace msc_vo {
 
@@ -31,14 +30,17 @@ class PlaneMap {
   void MergeDuplicates(const Map& map, KeyframeId keyframe);
   /// Forgets keyframes that were culled, and the planes that only they observed.
   void Renew(const Map& map);
-  /// Takes over the planes of a map that was joined with that of this one; the keyframes of both
-  /// are in one map now.
+  /// Takes over the planes of a map that was joined with that of this one, under other ids; the
+  /// keyframes of both are in one map now.
   void Join(PlaneMap other);
+  /// Forgets all planes. Their ids are given again.
+  void Clear();
+  /// Takes the planes with a single observation from it again: the frame of its keyframe may have
+  /// been replaced, as by another compensation.
+  void FollowFrames(const Map& map);
 
-  /// Adds the planes that two or more keyframes of the window observe, beside its landmarks.
-  void AddTo(const Map& map, WindowData* window) const {
-    AddTo(map, PlanesBeside::kPointsAndLines, window);
-  }
+  /// Adds the planes that two or more keyframes of the window observe.
+  void AddTo(const Map& map, WindowData* window) const;
   /// Takes over the estimates of a solved window whose keyframes have been written to the map, and
   /// learns the noise from its residuals.
   void Learn(const Map& map, const WindowData& window);
@@ -60,13 +62,11 @@ class PlaneMap {
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [planes, keyframes, next, noise] = *this;  // all members, or it does not compile
-    archive(planes, keyframes, next, noise);
+    auto& [planes, keyframes, next, noise, numbering] = *this;  // all members
+    archive(planes, keyframes, next, noise, numbering);
   }
 
  private:
-  void AddTo(const Map& map, PlanesBeside beside, WindowData* window) const;
-  void SetEstimates(const Map& map, const WindowData& window);
   void Grow(const Map& map, const Keyframe& keyframe, const PlaneMatch& match);
   bool AreSame(const Map& map, const Keyframe& keyframe, const PlaneMatch& match,
                LandmarkId other) const;
@@ -76,6 +76,7 @@ class PlaneMap {
   std::map<KeyframeId, std::vector<PlaneMatch>> keyframes_;
   LandmarkId next_ = 0;
   double noise_ = 1.0;
+  int64_t numbering_ = 0;
 };
 
 }  // namespace msc_vo

@@ -51,10 +51,11 @@ RgbdImage DepthPreparation::RemoveClipped(const RgbdImage& image) {
 RgbdImage DepthPreparation::Align(const RgbdImage& image,
                                   const std::optional<CameraVelocity>& velocity) const {
   RgbdImage aligned = image;
-  if (image.depth_delay != 0.0 && velocity) {
+  if (image.depth_delay != 0.0 && velocity && !image.depth_velocity) {
     if (aligned.recorded_depth.empty()) aligned.recorded_depth = image.depth;
     aligned.depth = aligner_.Align(image.depth, velocity->Over(image.depth_delay));
-    aligned.depth_velocity = velocity;
+    // A motion of less than half a pixel leaves the image as it is.
+    aligned.depth_velocity = aligned.depth.data == image.depth.data ? CameraVelocity() : *velocity;
   }
   return aligned;
 }

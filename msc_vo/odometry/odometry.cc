@@ -165,7 +165,7 @@ void Odometry::State::AddResult(const TrackedFrame& tracked, int world, const Rg
 
 void Odometry::State::RefineOlderPoses(const TrackedFrame& tracked, const MapSnapshot& map) {
   refiner.Refine(tracked.frame->timestamp, map, &relative_poses);
-  refiner.Add(last(), tracked);
+  refiner.Add(last(), tracked, map);
 }
 
 // Returns the map that the pose of the frame is in.

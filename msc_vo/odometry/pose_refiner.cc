@@ -48,7 +48,7 @@ FrameMatches MatchesWith(const Map& map, const PerKind<std::vector<LandmarkId>>&
 PoseRefiner::PoseRefiner(const PoseOptions& options, double delay)
     : options_(WithTwoRounds(options)), delay_(delay) {}
 
-void PoseRefiner::Add(int index, const TrackedFrame& tracked) {
+void PoseRefiner::Add(int index, const TrackedFrame& tracked, const MapSnapshot& snapshot) {
   if (delay_ == 0.0 || tracked.reference == kNoId || tracked.keyframe.is_due() ||
       tracked.has_pose_factors) {
     return;
@@ -57,6 +57,8 @@ void PoseRefiner::Add(int index, const TrackedFrame& tracked) {
   PendingFrame pending;
   pending.index = index;
   pending.reference = tracked.reference;
+  pending.world = snapshot.world;
+  pending.plane_numbering = snapshot.planes.numbering;
   auto frame = std::make_shared<Frame>();
   frame->id = tracked.frame->id;
   frame->timestamp = tracked.frame->timestamp;
@@ -98,6 +100,13 @@ void PoseRefiner::RefineAll(const MapSnapshot& snapshot, std::vector<ReferencedP
   }
 }
 
+// Whether the planes that the frame observes are those of the snapshot, and may be used.
+bool PoseRefiner::HasPlanes(const PendingFrame& pending, const Frame& frame,
+                            const MapSnapshot& snapshot) {
+  return !frame.planes.empty() && !snapshot.calibration_is_doubted &&
+         pending.world == snapshot.world && pending.plane_numbering == snapshot.planes.numbering;
+}
+
 // Number of observations of which half must fit another pose: all of the frame, or those whose
 // landmarks are left if its depth was not registered. Many landmarks of such a map are not.
 int PoseRefiner::NumExpected(const PendingFrame& pending, const Frame& frame,
@@ -120,7 +129,7 @@ void PoseRefiner::RefineFrame(const PendingFrame& pending, const MapSnapshot& sn
   const Rigid3 reference_from_world = map->CamFromWorld(pose->reference);
   Rigid3 cam_from_world = pose->cam_from_reference * reference_from_world;
   std::vector<PoseFactor> by_planes;
-  if (map == &snapshot.map) {
+  if (HasPlanes(pending, *frame, snapshot)) {
     by_planes = MakePlanePoseFactors(frame->planes, pending.planes, snapshot.planes,
                                      PlanesBeside::kPointsAndLines);
   }

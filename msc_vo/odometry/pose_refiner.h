@@ -22,9 +22,9 @@ class PoseRefiner {
   /// `delay`: seconds; 0: poses are not estimated again.
   PoseRefiner(const PoseOptions& options, double delay);
 
-  /// Keeps what the frame with result `index` observes, unless it becomes a keyframe, whose pose
-  /// bundle adjustment estimates, or pose factors took part in its pose.
-  void Add(int index, const TrackedFrame& tracked);
+  /// Keeps what the frame with result `index`, tracked in `snapshot`, observes, unless it becomes a
+  /// keyframe, whose pose bundle adjustment estimates, or pose factors took part in its pose.
+  void Add(int index, const TrackedFrame& tracked, const MapSnapshot& snapshot);
 
   /// Estimates the poses of kept frames that are older than the delay at `timestamp` (seconds), at
   /// most three of them, and forgets the frames. Keeps a pose if its map or its segment is
@@ -49,13 +49,17 @@ class PoseRefiner {
     std::shared_ptr<const Frame> frame;          // with the matched features alone
     PerKind<std::vector<LandmarkId>> landmarks;  // one per feature
     std::vector<PlaneMatch> planes;
+    SubMapId world = 0;           // that `planes` are in
+    int64_t plane_numbering = 0;  // MapPlanes::numbering of their ids
 
     template <typename Archive>
     void Serialize(Archive& archive) {
-      archive.Fields(*this, index, reference, frame, landmarks, planes);
+      archive.Fields(*this, index, reference, frame, landmarks, planes, world, plane_numbering);
     }
   };
 
+  static bool HasPlanes(const PendingFrame& pending, const Frame& frame,
+                        const MapSnapshot& snapshot);
   static int NumExpected(const PendingFrame& pending, const Frame& frame,
                          const FrameMatches& matches);
   void RefineFrame(const PendingFrame& pending, const MapSnapshot& snapshot,

@@ -7,8 +7,11 @@
 #include <memory>
 
 #include <ceres/loss_function.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
 
 #include "msc_vo/factors/chi_square.h"
+#include "msc_vo/factors/plane_manifold.h"
 #include "msc_vo/factors/plane_observation.h"
 
 namespace msc_vo {
@@ -33,6 +36,23 @@ class FixedPlaneObservation : public CostFunctor<FixedPlaneObservation, 3, 7> {
  private:
   PlaneObservation observation_;
   Plane plane_;
+};
+
+// A PlaneObservation from a pose that is held fixed, 3 rows.
+class PlaneFromFixedPose : public CostFunctor<PlaneFromFixedPose, 3, 4> {
+ public:
+  PlaneFromFixedPose(const PlaneObservation& observation, const Rigid3& cam_from_world)
+      : observation_(observation), cam_from_world_(cam_from_world) {}
+
+  template <typename T>
+  bool operator()(const T* plane, T* residuals) const {
+    const Eigen::Matrix<T, 7, 1> pose = cam_from_world_.params.cast<T>();
+    return observation_(pose.data(), plane, residuals);
+  }
+
+ private:
+  PlaneObservation observation_;
+  Rigid3 cam_from_world_;
 };
 
 // Errors of focal lengths and principal point, in focal lengths: they tilt all planes but those
@@ -73,12 +93,36 @@ std::vector<PoseFactor> MakePlanePoseFactors(const std::vector<PlaneFeature>& fe
   return factors;
 }
 
-CustomFactor MakePlaneFactor(const PlaneFeature& feature, double noise, PlanesBeside beside,
-                             const BlockId& pose, const BlockId& plane) {
+CustomFactor MakePlaneFactor(const PlaneFeature& feature, double noise, const BlockId& pose,
+                             const BlockId& plane) {
   return {"plane",
-          PlaneObservation::CreateShared(Observe(feature, noise, beside)),
+          PlaneObservation::CreateShared(Observe(feature, noise, PlanesBeside::kPointsAndLines)),
           Loss(),
           {pose, plane}};
+}
+
+void FitPlane(const std::vector<PlaneView>& views, double noise, Plane* plane) {
+  constexpr int kMaxIterations = 10;  // steps of Newton's method, which begins nearby
+  Plane fitted = *plane;
+  ceres::HuberLoss loss(kHuberThreshold[3]);
+  ceres::Problem::Options ownership;
+  ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(ownership);
+  problem.AddParameterBlock(fitted.params.data(), 4, new PlaneManifold());
+  for (const PlaneView& view : views) {
+    const PlaneFromFixedPose factor(Observe(*view.feature, noise, PlanesBeside::kNothing),
+                                    view.cam_from_world);
+    Eigen::Vector3d residual;
+    if (!factor(plane->params.data(), residual.data())) continue;  // behind the camera
+    problem.AddResidualBlock(PlaneFromFixedPose::Create(factor), &loss, fitted.params.data());
+  }
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.max_num_iterations = kMaxIterations;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  if (summary.IsSolutionUsable()) *plane = fitted;
 }
 
 }  // namespace msc_vo

@@ -13,8 +13,9 @@
 
 namespace msc_vo {
 
-/// What else determines a pose. Errors of the calibration tilt planes as they have tilted those of
-/// the map, and only points and lines contradict them.
+/// What determines a pose beside planes. Errors of the calibration tilt planes as they have tilted
+/// those of the map, so that only points and lines contradict them: beside these, factors count
+/// such errors.
 enum class PlanesBeside { kPointsAndLines, kNothing };
 
 /// Factors over the pose of a frame: its matched planes, those of the map held fixed
@@ -24,8 +25,18 @@ std::vector<PoseFactor> MakePlanePoseFactors(const std::vector<PlaneFeature>& fe
                                              const MapPlanes& map, PlanesBeside beside);
 
 /// The factor of a window between a keyframe and the extra block of a plane of the map, with
-/// PlaneManifold. `noise`: MapPlanes::noise.
-CustomFactor MakePlaneFactor(const PlaneFeature& feature, double noise, PlanesBeside beside,
-                             const BlockId& pose, const BlockId& plane);
+/// PlaneManifold, beside points and lines. `noise`: MapPlanes::noise.
+CustomFactor MakePlaneFactor(const PlaneFeature& feature, double noise, const BlockId& pose,
+                             const BlockId& plane);
+
+/// A plane as a frame with a known pose sees it.
+struct PlaneView {
+  Rigid3 cam_from_world;  ///< metres
+  const PlaneFeature* feature = nullptr;
+};
+
+/// Fits a plane (world, metres) to what frames see of it, beginning at *plane. `noise`:
+/// MapPlanes::noise. Frames that the plane is behind take no part.
+void FitPlane(const std::vector<PlaneView>& views, double noise, Plane* plane);
 
 }  // namespace msc_vo

@@ -35,8 +35,8 @@ class CalibrationEstimator {
   /// Whether the estimation from pairs has ended: Update() needs no further images, which may be
   /// null then, and keeps none.
   bool IsSettled() const { return pairs_.is_closed(); }
-  /// Whether images speak against the given focal length, lens or registration of the depth image,
-  /// and no correction is accepted.
+  /// Whether focal length, lens or registration of depth may be wrong, and are not corrected: by
+  /// kDoubtedOdds, or for the registration kAcceptedOdds. May remain so to the end of a run.
   bool IsDoubted() const;
   /// Reports another readout time of a rolling shutter, seconds.
   void SetReadoutTime(double readout_time) { pairs_.SetReadoutTime(readout_time); }

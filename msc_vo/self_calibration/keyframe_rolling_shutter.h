@@ -10,8 +10,9 @@
 
 namespace msc_vo {
 
-/// Replaces the velocity of a keyframe and repeats its rolling-shutter compensation with the
-/// readout time that it was compensated with. No effect if the map does not contain the keyframe.
+/// Replaces the velocity of a keyframe, repeats its rolling-shutter compensation with the readout
+/// time that it was compensated with, and moves its planes by SetDepthVelocity(). No effect if the
+/// map does not contain the keyframe.
 void SetKeyframeVelocity(KeyframeId keyframe, const CameraVelocity& velocity, Map* map);
 
 /// Returns the frame compensated with `readout_time` (seconds) and its own velocity. Returns the

@@ -19,8 +19,8 @@ bool AwaitsCompensation(const MapSnapshot& snapshot);
 /// Readout time (seconds) that frames are compensated with to be consistent with the map.
 double CompensationReadoutTime(const MapSnapshot& snapshot);
 
-/// The frame compensated for a rolling shutter with `readout_time` (seconds); the frame itself if
-/// the velocity is unknown.
+/// The frame compensated for a rolling shutter with `readout_time` (seconds), with its planes at
+/// its time stamp (SetDepthVelocity); the frame itself if the velocity is unknown.
 std::shared_ptr<const Frame> CompensateFrame(std::shared_ptr<const Frame> frame,
                                              const std::optional<CameraVelocity>& velocity,
                                              double readout_time);

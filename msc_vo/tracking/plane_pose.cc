@@ -71,7 +71,9 @@ std::optional<PlanePose> EstimateByPlanes(const TrackerOptions& options, const F
   if (!pose.summary.usable) return std::nullopt;
   // Planes agree about a wrong calibration, but the covariance is that of the truth.
   Rigid3 near = pose.cam_from_world;
-  pose.summary.covariance = estimate(PlanesBeside::kPointsAndLines, &near).covariance;
+  const PoseSummary of_truth = estimate(PlanesBeside::kPointsAndLines, &near);
+  if (!of_truth.usable) return std::nullopt;
+  pose.summary.covariance = of_truth.covariance;
   return pose;
 }
 

@@ -119,11 +119,15 @@ TrackedFrame Tracker::TrackInGap(const Input& input) {
 std::optional<TrackedFrame> Tracker::TrackByPlanes(const Input& input) {
   const double timestamp = input.frame->timestamp;
   if (in_gap_ || timestamp - last_.frame->timestamp > options_.max_prediction) return std::nullopt;
-  const std::optional<PlanePose> pose =
-      EstimateByPlanes(options_, *input.frame, input.snapshot, ExpectPoseOf(input), pose_factors_);
+  const auto estimate = [&, expected = ExpectPoseOf(input)](const Frame& frame) {
+    return EstimateByPlanes(options_, frame, input.snapshot, expected, pose_factors_);
+  };
+  std::optional<PlanePose> pose = estimate(*input.frame);
   if (!pose) return std::nullopt;
   TrackedFrame tracked;
-  tracked.frame = input.frame;
+  tracked.frame = CompensateAgain(input, pose->cam_from_world);
+  pose = estimate(*tracked.frame);
+  if (!pose) return std::nullopt;
   tracked.pose = pose->summary;
   tracked.planes = pose->planes;
   SetPose(input.snapshot.map, pose->cam_from_world,
@@ -140,6 +144,13 @@ std::optional<TrackedFrame> Tracker::TrackByPlanes(const Input& input) {
   segment_start_.Tracked(timestamp);
   Follow(&tracked);
   return tracked;
+}
+
+std::shared_ptr<const Frame> Tracker::CompensateAgain(const Input& input,
+                                                      const Rigid3& cam_from_world) const {
+  const Rigid3 cam_from_last = cam_from_world * input.last_from_world.Inverse();
+  return CompensateFrame(input.raw, motion_.VelocitySince(input.raw->timestamp, cam_from_last),
+                         CompensationReadoutTime(input.snapshot));
 }
 
 ExpectedPose Tracker::ExpectPoseOf(const Input& input) const {
@@ -258,12 +269,8 @@ bool Tracker::IsOutsideMappedArea(const Map& map, const TrackedFrame& tracked) c
 TrackedFrame Tracker::TrackLocalMap(const Input& input, const FramePose& initial,
                                     PoseEstimator* estimator) const {
   const Map& map = input.snapshot.map;
-  // The initial pose yields the velocity since the last frame: compensate again.
-  const Rigid3 cam_from_last = initial.cam_from_world * input.last_from_world.Inverse();
   TrackedFrame tracked;
-  tracked.frame =
-      CompensateFrame(input.raw, motion_.VelocitySince(input.raw->timestamp, cam_from_last),
-                      CompensationReadoutTime(input.snapshot));
+  tracked.frame = CompensateAgain(input, initial.cam_from_world);
   const LocalMap local = estimator->Search([&] {
     return SelectLocalMap(map, *tracked.frame, initial.cam_from_world, initial.matches,
                           ReferenceOrNewest(map, last_.reference), options_.max_local_keyframes);

@@ -92,6 +92,9 @@ class Tracker {
   // Without an initial pose: by the planes and the pose factors; std::nullopt if the frame does not
   // follow one with a pose, or matches no plane.
   std::optional<TrackedFrame> TrackByPlanes(const Input& input);
+  // The frame as the velocity compensates it that a pose yields.
+  std::shared_ptr<const Frame> CompensateAgain(const Input& input,
+                                               const Rigid3& cam_from_world) const;
   // What the last frame and the pose factors tell of the pose.
   ExpectedPose ExpectPoseOf(const Input& input) const;
   // The frame with the predicted pose, predicted or lost.

@@ -3,12 +3,18 @@
 
 // msc_vo export.
 
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
 #include "tests/apps/command_process.h"
 #include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <sys/stat.h>
 
 #include "msc_vo/datasets/trajectory_format.h"
 #include "msc_vo/map_file/map_reader.h"
@@ -166,6 +172,31 @@ TEST_F(ExportCommandTest, LeavesOutImagesThatCannotBeRead) {
   EXPECT_EQ(bag->NumMessages("/msc_vo/pose"), 12);
   EXPECT_EQ(bag->NumMessages("/msc_vo/features/compressed"),
             static_cast<int>(keyframes.size()) - 1);
+}
+
+// Another program replaces the map after the run: the export of the run has the rest of it.
+TEST_F(ExportCommandTest, ReplayLeavesOutFeaturesThatAreNotInTheMap) {
+  std::filesystem::rename(Path("x"), Path("z"));
+  ASSERT_EQ(mkfifo(Path("pipe").c_str(), 0600), 0);
+  CommandProcess replay({"replay", Path("z"), "--output", Path("again"), "--map", Path("z.map"),
+                         "--json", "--export", "mcap=" + Path("z.mcap")},
+                        Path("pipe"));
+  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(fopen(Path("pipe").c_str(), "r"), fclose);
+  ASSERT_GT(fcntl(fileno(pipe.get()), F_SETPIPE_SZ, 4096), 0);
+  ASSERT_EQ(setvbuf(pipe.get(), nullptr, _IONBF, 0), 0);
+  EXPECT_EQ(fgetc(pipe.get()), '{');  // the run has ended, and waits for the rest to be read
+  EXPECT_TRUE(HasEntry(Path("z.map")));
+  std::filesystem::rename(Path("x.map"), Path("z.map"));
+  size_t num_bytes = 0;
+  while (fgetc(pipe.get()) != EOF) ++num_bytes;
+  EXPECT_GT(num_bytes, 4096u) << "all fits into the pipe";
+  EXPECT_EQ(replay.Wait(), 0);
+  EXPECT_THAT(replay.output(), Names("z.mcap", "left out", "z.map", "no keyframe"));
+  const auto bag = OpenBagFile(Path("z.mcap"));
+  EXPECT_EQ(bag->NumMessages("/msc_vo/pose"), 12);
+  EXPECT_EQ(bag->FindTopic("/msc_vo/features/compressed"), nullptr);
+  EXPECT_THAT(Run({"export", Path("again"), "mcap", Path("a.mcap"), "--map", Path("z.map")}, 1),
+              Names("z.map", "no keyframe"));
 }
 #endif
 

@@ -29,6 +29,7 @@ std::shared_ptr<const Frame> FrameWith(const std::shared_ptr<const CameraIntrins
   frame->lines.resize(1);
   frame->lines[0].segment = {{100.0, 100.0}, {300.0, 200.0}};
   frame->lines[0].depth = LineDepth{0.5, 0.4, Eigen::Matrix2d::Identity()};
+  frame->planes.resize(1);
   return frame;
 }
 
@@ -45,12 +46,14 @@ TEST(ChangeIntrinsics, RemovesDepthsThatWereNotRegistered) {
   const auto changed = ChangeIntrinsics(FrameWith(Intrinsics(0.0, false)), Intrinsics(0.0, true));
   EXPECT_FALSE(changed->points[0].HasDepth());
   EXPECT_FALSE(changed->lines[0].depth);
+  EXPECT_TRUE(changed->planes.empty());
 }
 
 TEST(ChangeIntrinsics, KeepsDepthsThatWereRegisteredOtherwise) {
   const auto changed = ChangeIntrinsics(FrameWith(Intrinsics(0.0, true)), Intrinsics(0.0, true));
   EXPECT_TRUE(changed->points[0].HasDepth());
   EXPECT_TRUE(changed->lines[0].depth);
+  EXPECT_EQ(changed->planes.size(), 1u);
 }
 
 // The same pixels show the same inverse depths.

@@ -43,5 +43,15 @@ TEST(PlaneFeature, HasNoExtentIfItIsTooFar) {
   EXPECT_TRUE(Floor({{0.0, -0.5}, {0.5, 0.01}, {-0.5, 0.01}}).Extent().empty());
 }
 
+TEST(PlaneFeature, MovesWithItsCameraFrame) {
+  const Plane wall({0.0, 0.0, -1.0}, 2.0);
+  PlaneFeature feature = FeatureOf(wall);
+  feature.Move({Eigen::Quaterniond::Identity(), {0.3, 0.0, 0.5}});
+  EXPECT_LT((feature.inverse_depth - Eigen::Vector3d(0.0, 0.0, 0.4)).norm(), 1e-12);
+  // The velocity of a wrong pose would move the camera through the wall.
+  feature.Move({Eigen::Quaterniond::Identity(), {0.0, 0.0, -3.0}});
+  EXPECT_LT((feature.inverse_depth - Eigen::Vector3d(0.0, 0.0, 0.4)).norm(), 1e-12);
+}
+
 }  // namespace
 }  // namespace msc_vo

@@ -105,6 +105,41 @@ TEST_F(PlaneMapTest, FitsPlanesToAllKeyframesThatObserveThem) {
   EXPECT_LT(Error({}), 1e-6);
 }
 
+TEST_F(PlaneMapTest, PlanesOfOneKeyframeFollowItsFrame) {
+  const Plane door({1.0, 0.0, 0.0}, 1.0);
+  const Rigid3 pose = map_.FindKeyframe(2)->cam_from_world;
+  auto frame = std::make_shared<Frame>();
+  frame->planes = {FeatureOf(pose * kWall), FeatureOf(pose * door)};
+  const KeyframeId id = map_.AddKeyframe(frame, pose);
+  planes_.AddKeyframe(map_, id, PoseCovariance::Zero());
+  const auto moved = std::make_shared<Frame>(*frame);
+  const Rigid3 turn(ExpSO3({0.0, 0.02, 0.0}), {0.0, 0.0, 0.0});
+  for (PlaneFeature& plane : moved->planes) plane.Move(turn);
+  map_.SetFrame(id, moved);
+  planes_.FollowFrames(map_);
+  const MapPlanes found = planes_.InWorld(map_);
+  ASSERT_EQ(found.planes.size(), 3u);
+  EXPECT_LT((found.planes[0].plane.params - kWall.params).norm(), 1e-9) << "others see it, too";
+  const Plane expected = pose.Inverse() * (turn * (pose * door));
+  EXPECT_LT((found.planes[2].plane.params - expected.params).norm(), 1e-9);
+}
+
+TEST_F(PlaneMapTest, NumbersPlanesAnewWhenTheirIdsChange) {
+  const int64_t before = planes_.InWorld(map_).numbering;
+  PlaneMap joined = planes_;
+  joined.Join(PlaneMap());
+  EXPECT_NE(joined.InWorld(map_).numbering, before);
+  planes_.Clear();
+  EXPECT_TRUE(planes_.empty());
+  EXPECT_NE(planes_.InWorld(map_).numbering, before);
+}
+
+TEST_F(PlaneMapTest, FitsPlanesWhoseHostWasRemoved) {
+  map_.RemoveKeyframe(0, 1);
+  planes_ = planes_.Fitted(map_);
+  EXPECT_LT(Error({}), 1e-6);
+}
+
 // A patch of a wall at z = 2 that is seen from its front, between two values of x.
 PlaneFeature Patch(const Rigid3& cam_from_world, double min_x, double max_x, double depth = 2.0) {
   PlaneFeature feature = FeatureOf(cam_from_world * Plane({0.0, 0.0, -1.0}, depth));

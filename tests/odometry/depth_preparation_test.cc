@@ -79,6 +79,10 @@ TEST(DepthPreparation, KeepsDepthThatNeedsNoAlignment) {
   const RgbdImage unknown_velocity = preparation.Align(delayed, std::nullopt);
   EXPECT_EQ(unknown_velocity.depth.data, delayed.depth.data);
   EXPECT_FALSE(unknown_velocity.depth_velocity);
+  const RgbdImage hardly_moved = preparation.Align(delayed, LeftBy(0.3));
+  EXPECT_EQ(hardly_moved.depth.data, delayed.depth.data);
+  ASSERT_TRUE(hardly_moved.depth_velocity);
+  EXPECT_TRUE(hardly_moved.depth_velocity->linear.isZero());
 }
 
 // Depth images that are not registered are aligned before they are: with the camera that took them.

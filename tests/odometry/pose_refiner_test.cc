@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "tests/support/plane_features.h"
 #include <gtest/gtest.h>
 
 #include "msc_vo/geometry/so3.h"
@@ -78,13 +79,13 @@ class PoseRefinerTest : public testing::Test {
 };
 
 TEST_F(PoseRefinerTest, EstimatesThePoseInThePresentMap) {
-  refiner_.Add(0, Tracked(1.0));
+  refiner_.Add(0, Tracked(1.0), snapshot_);
   refiner_.Refine(7.0, snapshot_, &poses_);
   EXPECT_TRUE(IsRefined());
 }
 
 TEST_F(PoseRefinerTest, WaitsForTheDelay) {
-  refiner_.Add(0, Tracked(1.0));
+  refiner_.Add(0, Tracked(1.0), snapshot_);
   refiner_.Refine(5.5, snapshot_, &poses_);
   EXPECT_TRUE(IsUnchanged());
   refiner_.Refine(6.5, snapshot_, &poses_);
@@ -92,7 +93,7 @@ TEST_F(PoseRefinerTest, WaitsForTheDelay) {
 }
 
 TEST_F(PoseRefinerTest, EstimatesEachPoseOnce) {
-  refiner_.Add(0, Tracked(1.0));
+  refiner_.Add(0, Tracked(1.0), snapshot_);
   refiner_.Refine(7.0, snapshot_, &poses_);
   poses_[0].cam_from_reference = wrong_;
   refiner_.Refine(20.0, snapshot_, &poses_);
@@ -100,7 +101,7 @@ TEST_F(PoseRefinerTest, EstimatesEachPoseOnce) {
 }
 
 TEST_F(PoseRefinerTest, EstimatesAllPosesOnRequest) {
-  refiner_.Add(0, Tracked(1.0));
+  refiner_.Add(0, Tracked(1.0), snapshot_);
   for (int i = 0; i < 2; ++i) {  // the frames are kept
     poses_[0].cam_from_reference = wrong_;
     refiner_.RefineAll(snapshot_, &poses_);
@@ -111,27 +112,49 @@ TEST_F(PoseRefinerTest, EstimatesAllPosesOnRequest) {
 TEST_F(PoseRefinerTest, LeavesKeyframesToBundleAdjustment) {
   TrackedFrame tracked = Tracked(1.0);
   tracked.keyframe.id = 1;
-  refiner_.Add(0, tracked);
+  refiner_.Add(0, tracked, snapshot_);
   refiner_.RefineAll(snapshot_, &poses_);
   EXPECT_TRUE(IsUnchanged());
 }
 
 TEST_F(PoseRefinerTest, LeavesFramesWhoseSegmentWasDiscarded) {
-  refiner_.Add(0, Tracked(1.0));
+  refiner_.Add(0, Tracked(1.0), snapshot_);
   poses_[0].reference = kNoId;
   refiner_.RefineAll(snapshot_, &poses_);
   EXPECT_TRUE(IsUnchanged());
 }
 
+// A wall that is 2 cm off in the map, with a sigma of half a millimetre.
+TEST_F(PoseRefinerTest, UsesPlanesOfTheSameNumberingAlone) {
+  TrackedFrame tracked = Tracked(1.0);
+  auto frame = std::make_shared<Frame>(*tracked.frame);
+  frame->planes = {FeatureOf(truth_ * Plane({0.0, 0.0, -1.0}, 4.0))};
+  frame->planes[0].covariance = 1e-9 * Eigen::Matrix3d::Identity();
+  tracked.frame = frame;
+  tracked.planes = {{0, 5}};
+  snapshot_.planes.planes.push_back({5, Plane({0.0, 0.0, -1.0}, 4.02)});
+  refiner_.Add(0, tracked, snapshot_);
+  refiner_.RefineAll(snapshot_, &poses_);
+  EXPECT_FALSE(IsRefined());
+  snapshot_.planes.numbering = 1;
+  refiner_.RefineAll(snapshot_, &poses_);
+  EXPECT_TRUE(IsRefined());
+  snapshot_.planes.numbering = 0;
+  snapshot_.calibration_is_doubted = true;
+  poses_[0].cam_from_reference = wrong_;
+  refiner_.RefineAll(snapshot_, &poses_);
+  EXPECT_TRUE(IsRefined());
+}
+
 TEST_F(PoseRefinerTest, KeepsAPoseIfMostLandmarksAreGone) {
-  refiner_.Add(0, Tracked(1.0));
+  refiner_.Add(0, Tracked(1.0), snapshot_);
   for (size_t i = 0; i < 19; ++i) snapshot_.map.Remove<PointLandmark>(points_[i]);
   refiner_.RefineAll(snapshot_, &poses_);
   EXPECT_TRUE(IsUnchanged());
 }
 
 TEST_F(PoseRefinerTest, KeepsAPoseIfTheMapContradictsTheObservations) {
-  refiner_.Add(0, Tracked(1.0));
+  refiner_.Add(0, Tracked(1.0), snapshot_);
   for (size_t i = 0; i < points_.size(); ++i) {
     const double sign = i % 2 == 0 ? 1.0 : -1.0;
     snapshot_.map.SetGeometry<PointLandmark>(points_[i],
@@ -153,14 +176,14 @@ TEST_F(PoseRefinerTest, FollowsAnotherCalibration) {
   auto present = std::make_shared<CameraIntrinsics>();
   present->camera = kCamera;
   snapshot_.intrinsics = present;
-  refiner_.Add(0, tracked);
+  refiner_.Add(0, tracked, snapshot_);
   refiner_.RefineAll(snapshot_, &poses_);
   EXPECT_TRUE(IsRefined());
 }
 
 TEST_F(PoseRefinerTest, CanBeSwitchedOff) {
   refiner_ = PoseRefiner(PoseOptions(), 0.0);
-  refiner_.Add(0, Tracked(1.0));
+  refiner_.Add(0, Tracked(1.0), snapshot_);
   refiner_.RefineAll(snapshot_, &poses_);
   EXPECT_TRUE(IsUnchanged());
 }

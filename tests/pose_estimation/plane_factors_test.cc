@@ -3,10 +3,12 @@
 
 #include "msc_vo/pose_estimation/plane_factors.h"
 
+#include "tests/support/plane_features.h"
 #include <ceres/cost_function.h>
 #include <gtest/gtest.h>
 
 #include "msc_vo/camera/pinhole_camera.h"
+#include "msc_vo/geometry/so3.h"
 
 namespace msc_vo {
 namespace {
@@ -53,6 +55,19 @@ TEST(PlaneFactors, LeaveOutPlanesThatAreNotInTheMap) {
   const std::vector<PlaneFeature> features = {SeenBy(PinholeCamera())};
   EXPECT_TRUE(
       MakePlanePoseFactors(features, {{0, 3}}, MapPlanes(), PlanesBeside::kNothing).empty());
+}
+
+TEST(PlaneFactors, FitAPlaneToItsViews) {
+  const Rigid3 poses[] = {{}, {ExpSO3({0.0, 0.2, 0.1}), {0.3, 0.1, 0.2}}};
+  std::vector<PlaneFeature> features;
+  for (const Rigid3& pose : poses) features.push_back(FeatureOf(pose * kWall));
+  const Rigid3 behind({1, 0, 0, 0}, {0.0, 0.0, -9.0});  // a pose that is wrong
+  features.push_back(features[0]);
+  const std::vector<PlaneView> views = {
+      {poses[0], &features[0]}, {poses[1], &features[1]}, {behind, &features[2]}};
+  Plane plane((kWall.normal() + Eigen::Vector3d(0.02, 0.03, -0.01)).normalized(), 1.9);
+  FitPlane(views, 1.0, &plane);
+  EXPECT_LT((plane.params - kWall.params).norm(), 1e-6);
 }
 
 }  // namespace
