@@ -4,6 +4,7 @@
 #include "apps/cli/checkpoints.h"
 
 #include <algorithm>
+#include <chrono>
 #include <exception>
 #include <filesystem>
 #include <utility>
@@ -51,29 +52,65 @@ void Checkpoints::Restore(Odometry* odometry, CostMeter* cost, LoopProgress* pro
 
 void Checkpoints::SaveIfDue(Odometry* odometry, const CostMeter& cost,
                             const LoopProgress& progress) {
-  if (pause_ && since_saved_.Milliseconds() < 1000.0 * *pause_) return;
-  if (progress.num_images > progress.num_unreadable) Save(odometry, cost, progress);
+  constexpr double kLongestDelay = 1000.0;  // milliseconds, by a mapper that is never idle
+  constexpr uint64_t kMaxNewBytes = uint64_t{3} << 20;  // some 3 ms
+  const double delay = since_saved_.Milliseconds() - 1000.0 * pause_.value_or(0.0);
+  if (delay < 0.0 || progress.num_images == progress.num_unreadable) return;
+  if (interval_ == 0.0) return Save(odometry, cost, progress);
+  const bool is_free =
+      !commit_.valid() || commit_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  if (!is_free || (delay < kLongestDelay && odometry->IsMapping())) return;
+  Write(odometry, cost, progress, kMaxNewBytes);
 }
 
 void Checkpoints::Save(Odometry* odometry, const CostMeter& cost, const LoopProgress& progress) {
-  constexpr double kPausePerDuration = 50.0;
-  const Stopwatch stopwatch;
+  constexpr uint64_t kUnlimited = uint64_t{1} << 40;
+  Write(odometry, cost, progress, kUnlimited);
+  Wait();
+}
+
+void Checkpoints::Wait() {
+  if (commit_.valid()) Try([this] { commit_.get(); });
+}
+
+template <typename Function>
+void Checkpoints::Try(const Function& function) {
   try {
-    file_.Save([&](BinaryWriter& archive) { archive(identity_); },
-               [&](BinaryWriter& archive) {
-                 // Waits for the mapper, which calls the gravity factors.
-                 if (!odometry->Save(&archive)) return false;
-                 if (parts_.gravity != nullptr) archive(*parts_.gravity);
-                 archive(progress, cost.Read(), *parts_.views);
-                 return true;
-               });
+    function();
   } catch (const std::exception& error) {
     if (!has_warned_) PrintWarning(std::string("no checkpoint: ") + error.what());
     has_warned_ = true;
   }
-  const double seconds = 1e-3 * stopwatch.Milliseconds();
-  Log().debug("checkpoint of {} images in {:.1f} ms", progress.num_images, 1e3 * seconds);
+}
+
+void Checkpoints::Write(Odometry* odometry, const CostMeter& cost, const LoopProgress& progress,
+                        uint64_t max_new_bytes) {
+  constexpr double kPausePerDuration = 50.0;
+  const Stopwatch stopwatch;
+  Wait();
+  bool is_written = true;  // a checkpoint that failed is not due again at once
+  Try([&] {
+    is_written = file_.Write([&](BinaryWriter& archive) { archive(identity_); },
+                             [&](BinaryWriter& archive) {
+                               // Waits for the mapper, which calls the gravity factors.
+                               if (!odometry->Save(&archive)) return false;
+                               if (parts_.gravity != nullptr) archive(*parts_.gravity);
+                               archive(progress, cost.Read(), *parts_.views);
+                               return true;
+                             },
+                             max_new_bytes);
+    if (is_written) commit_ = std::async(std::launch::async, [this] { file_.Commit(); });
+  });
+  const double part = stopwatch.Milliseconds();
+  duration_ += part;
+  if (getenv("CKPT")) fprintf(stderr, "PART %d ms %.2f\n", is_written, part);
+  longest_part_ = std::max(longest_part_, part);
+  if (!is_written) return;
+  Log().debug("checkpoint of {} images in {:.1f} ms, at most {:.1f} ms after an image",
+              progress.num_images, duration_, longest_part_);
+  const double seconds = 1e-3 * duration_;
   pause_ = interval_ > 0.0 ? std::max(interval_, kPausePerDuration * seconds) : 0.0;
+  duration_ = longest_part_ = 0.0;
   since_saved_.Restart();
 }
 

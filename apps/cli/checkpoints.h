@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <cstdint>
+#include <future>
 #include <optional>
 #include <string>
 
@@ -34,11 +36,13 @@ struct CheckpointedParts {
 };
 
 /// Writes checkpoints of a run while it is in progress, and restores them. The clock decides when a
-/// checkpoint is written, and affects nothing else.
+/// checkpoint is written, and affects nothing else. Images wait for neither the disk nor the
+/// mapper: a checkpoint is begun when the mapper is idle, and written in parts after successive
+/// images if it is large.
 class Checkpoints {
  public:
-  /// `interval`: seconds between checkpoints. 0: after every image. Longer where writing takes more
-  /// than a fiftieth of the time.
+  /// `interval`: seconds between checkpoints. 0: after every image, which waits until it is
+  /// written. Longer where writing takes more than a fiftieth of the time.
   Checkpoints(CheckpointFile file, RunIdentity identity, double interval,
               const CheckpointedParts& parts);
 
@@ -51,15 +55,27 @@ class Checkpoints {
   /// Call when the run ends early between two images. A checkpoint that cannot be written is a
   /// warning: the one before remains, if there is one.
   void Save(Odometry* odometry, const CostMeter& cost, const LoopProgress& progress);
+  /// Waits until the last checkpoint is on the disk.
+  void Wait();
 
  private:
+  // Writes at most `max_new_bytes` of new objects. The checkpoint may then be incomplete.
+  void Write(Odometry* odometry, const CostMeter& cost, const LoopProgress& progress,
+             uint64_t max_new_bytes);
+  // Calls a function of the file, whose errors are warnings.
+  template <typename Function>
+  void Try(const Function& function);
+
   CheckpointFile file_;
   RunIdentity identity_;
   double interval_;
   CheckpointedParts parts_;
   Stopwatch since_saved_;
   std::optional<double> pause_;  // seconds until the next one is due; none: at once
+  double duration_ = 0.0;        // of the parts of the next one so far, milliseconds
+  double longest_part_ = 0.0;    // of these
   bool has_warned_ = false;
+  std::future<void> commit_;  // valid while a checkpoint is being completed; last: it uses the file
 };
 
 }  // namespace msc_vo

@@ -87,6 +87,7 @@ void RunLoop(const RunArguments& arguments, int num_frames, const InterruptGuard
   } catch (const std::exception& error) {
     Fail(kExitError, error.what(), run);
   }
+  if (callbacks.checkpoints != nullptr) callbacks.checkpoints->Wait();
   if (!arguments.quiet) progress.Finish();
   const bool ends_early = loop->progress().num_images < num_frames;  // never for an endless camera
   if (run->exit_code == kExitSuccess && interrupt.IsInterrupted() && ends_early) {

@@ -55,6 +55,26 @@ class BinaryReader {
     }
   }
 
+  /// Reads values in blocks; see BinaryWriter.
+  template <typename T>
+  void Blocks(std::vector<T>& values) {
+    values.clear();
+    uint64_t size = 0;
+    Get(size);
+    while (values.size() < size) {
+      ObjectId id = kNoObject;
+      Get(id);
+      if (id >= id_) Fail();
+      BinaryReader block(journal_->Load(id), id, journal_);
+      do {
+        block.Get(values.emplace_back());
+      } while (!block.bytes_.empty());
+      journal_->SetLoadedContent(id, block.objects());
+      objects_.push_back(id);
+    }
+    if (values.size() > size) Fail();
+  }
+
   /// Throws std::runtime_error if bytes are left.
   void Finish() const;
   /// Shared objects that the bytes refer to.
@@ -89,10 +109,8 @@ class BinaryReader {
   }
   template <typename T, int rows, int columns, int options>
   void Get(Eigen::Matrix<T, rows, columns, options>& matrix) {
-    const size_t num_rows = GetSize();
-    const size_t num_columns = GetSize();
-    if (rows != Eigen::Dynamic && num_rows != static_cast<size_t>(rows)) Fail();
-    if (columns != Eigen::Dynamic && num_columns != static_cast<size_t>(columns)) Fail();
+    const size_t num_rows = rows == Eigen::Dynamic ? GetSize() : static_cast<size_t>(rows);
+    const size_t num_columns = columns == Eigen::Dynamic ? GetSize() : static_cast<size_t>(columns);
     if (num_columns > 0 && num_rows > bytes_.size() / num_columns / sizeof(T)) Fail();
     matrix.resize(static_cast<Eigen::Index>(num_rows), static_cast<Eigen::Index>(num_columns));
     GetBytes(matrix.data(), matrix.size() * sizeof(T));
@@ -100,7 +118,14 @@ class BinaryReader {
   void Get(Eigen::Quaterniond& rotation) { Get(rotation.coeffs()); }
   template <typename T>
   void Get(std::vector<T>& values) {
-    GetSequence(values);
+    if constexpr (std::is_arithmetic_v<T>) {
+      const size_t size = GetSize();
+      if (size > bytes_.size() / sizeof(T)) Fail();
+      values.resize(size);
+      GetBytes(values.data(), size * sizeof(T));
+    } else {
+      GetSequence(values);
+    }
     values.shrink_to_fit();
   }
   void Get(std::vector<bool>& values) {
@@ -135,7 +160,11 @@ class BinaryReader {
   }
   template <typename T, size_t size>
   void Get(std::array<T, size>& values) {
-    for (T& value : values) Get(value);
+    if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) {
+      GetBytes(values.data(), sizeof(values));
+    } else {
+      for (T& value : values) Get(value);
+    }
   }
   template <typename A, typename B>
   void Get(std::pair<A, B>& value) {

@@ -3,14 +3,18 @@
 
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -35,11 +39,13 @@ namespace msc_vo {
 /// pointers and archives refer to it.
 class BinaryWriter {
  public:
-  /// `journal` takes the shared objects and must outlive the writer.
-  /// `num_bytes`: memory to begin with.
-  explicit BinaryWriter(ObjectJournal* journal, size_t num_bytes = 0) : journal_(journal) {
-    bytes_.reserve(num_bytes);
-  }
+  /// Takes bytes that follow those it got before; may throw.
+  using Sink = std::function<void(std::string_view bytes)>;
+
+  /// `journal` takes the shared objects and must outlive the writer. The bytes go to `sink` in
+  /// parts whose sizes are multiples of eight, the last one by Flush(); without it, they are kept.
+  explicit BinaryWriter(ObjectJournal* journal, Sink sink = nullptr)
+      : journal_(journal), sink_(std::move(sink)) {}
 
   /// Writes the values one after the other.
   template <typename... Values>
@@ -58,12 +64,47 @@ class BinaryWriter {
     Put(values);
   }
 
-  const std::string& bytes() const { return bytes_; }
+  /// Writes values in blocks, which the journal has as objects, so that a block whose values have
+  /// not changed is not written again.
+  template <typename T>
+  void Blocks(const std::vector<T>& values) {
+    PutSize(values.size());
+    for (size_t i = 0; i < values.size(); i += kBlockSize) {
+      BinaryWriter block(journal_);
+      for (size_t j = i; j < std::min(i + kBlockSize, values.size()); ++j) block(values[j]);
+      PutObject(journal_->AppendContent(block.bytes(), block.objects()));
+    }
+  }
+
+  /// The bytes so far that no sink has got.
+  const std::string& bytes() {
+    Collect();
+    return bytes_;
+  }
+  /// Gives the rest of the bytes to the sink.
+  void Flush() {
+    sink_(bytes());
+    bytes_.clear();
+  }
   /// Shared objects that the bytes refer to.
   const std::vector<ObjectId>& objects() const { return objects_; }
 
+  /// Values in a block of Blocks().
+  static constexpr size_t kBlockSize = 64;
+
  private:
-  void PutBytes(const void* data, size_t size);
+  void PutBytes(const void* data, size_t size) {
+    if (size > recent_.size() - num_recent_) return PutManyBytes(data, size);
+    if (size > 0) std::memcpy(recent_.data() + num_recent_, data, size);
+    num_recent_ += size;
+  }
+  void PutManyBytes(const void* data, size_t size);
+  // Moves the recent bytes to the others.
+  void Collect();
+  void PutObject(ObjectId id) {
+    objects_.push_back(id);
+    Put(id);
+  }
   void PutSize(size_t size) { Put(static_cast<uint64_t>(size)); }
 
   template <typename T>
@@ -81,14 +122,19 @@ class BinaryWriter {
   }
   template <typename T, int rows, int columns, int options>
   void Put(const Eigen::Matrix<T, rows, columns, options>& matrix) {
-    PutSize(matrix.rows());
-    PutSize(matrix.cols());
+    if constexpr (rows == Eigen::Dynamic) PutSize(matrix.rows());
+    if constexpr (columns == Eigen::Dynamic) PutSize(matrix.cols());
     PutBytes(matrix.data(), matrix.size() * sizeof(T));
   }
   void Put(const Eigen::Quaterniond& rotation) { Put(rotation.coeffs()); }
   template <typename T>
   void Put(const std::vector<T>& values) {
-    PutSequence(values);
+    if constexpr (std::is_arithmetic_v<T>) {
+      PutSize(values.size());
+      PutBytes(values.data(), values.size() * sizeof(T));
+    } else {
+      PutSequence(values);
+    }
   }
   void Put(const std::vector<bool>& values) {
     PutSize(values.size());
@@ -108,7 +154,11 @@ class BinaryWriter {
   }
   template <typename T, size_t size>
   void Put(const std::array<T, size>& values) {
-    for (const T& value : values) Put(value);
+    if constexpr (std::is_arithmetic_v<T>) {
+      PutBytes(values.data(), sizeof(values));
+    } else {
+      for (const T& value : values) Put(value);
+    }
   }
   template <typename A, typename B>
   void Put(const std::pair<A, B>& value) {
@@ -121,14 +171,14 @@ class BinaryWriter {
   }
   template <typename T>
   void Put(const std::shared_ptr<T>& pointer) {
-    ObjectId id = pointer ? journal_->Find(pointer.get()) : kNoObject;
-    if (pointer && id == kNoObject) {
+    if (!pointer) return Put(kNoObject);
+    ObjectId id = journal_->Find(pointer);
+    if (id == kNoObject) {
       BinaryWriter object(journal_);
       object(*pointer);
       id = journal_->Append(pointer, object.bytes(), object.objects());
     }
-    if (pointer) objects_.push_back(id);
-    Put(id);
+    PutObject(id);
   }
 
   template <typename Sequence>
@@ -138,6 +188,9 @@ class BinaryWriter {
   }
 
   ObjectJournal* journal_;
+  Sink sink_;
+  std::array<char, 4096> recent_;  // copied to without a call
+  size_t num_recent_ = 0;
   std::string bytes_;
   std::vector<ObjectId> objects_;
 };

@@ -18,30 +18,29 @@ namespace {
 
 constexpr char kMagic[8] = {'m', 's', 'c', '_', 'v', 'o', ' ', 's'};
 // Increase it with every change of what is saved.
-constexpr uint64_t kFormat = 24;
+constexpr uint64_t kFormat = 25;
 constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 40;
 
+// The file is this, the state and the contents.
 struct Header {
   char magic[8] = {};
   uint64_t format = 0;
+  uint64_t state_bytes = 0;
+  uint64_t state_checksum = 0;
   uint64_t num_bytes = 0;  // of the contents
   uint64_t checksum = 0;   // of these
 };
-static_assert(sizeof(Header) == 32, "written as it is in memory");
+static_assert(sizeof(Header) == 48, "written as it is in memory");
 
-// What is between the header and the state.
 struct Contents {
   std::string description;
   int32_t journal = 0;
   uint64_t journal_bytes = 0;
   uint64_t journal_checksum = 0;
-  uint64_t state_bytes = 0;
-  uint64_t state_checksum = 0;
 
   template <typename Archive>
   void Serialize(Archive& archive) {
-    archive.Fields(*this, description, journal, journal_bytes, journal_checksum, state_bytes,
-                   state_checksum);
+    archive.Fields(*this, description, journal, journal_bytes, journal_checksum);
   }
 };
 
@@ -76,26 +75,20 @@ Contents TakeContents(const std::string& path, std::string* bytes) {
     Fail(path, "has format " + std::to_string(header.format) + ", and this program reads format " +
                    std::to_string(kFormat) + ": it is of another version of msc_vo");
   }
-  CheckBytes(path, *bytes, sizeof(header), header.num_bytes, header.checksum);
+  CheckBytes(path, *bytes, sizeof(header), header.state_bytes, header.state_checksum);
+  const size_t contents_begin = sizeof(header) + header.state_bytes;
+  CheckBytes(path, *bytes, contents_begin, header.num_bytes, header.checksum);
+  if (bytes->size() - contents_begin != header.num_bytes) {
+    Fail(path, "is damaged: it is too long");
+  }
   Contents contents;
   ObjectJournal none;
-  BinaryReader reader(std::string_view(*bytes).substr(sizeof(header), header.num_bytes), &none);
+  BinaryReader reader(std::string_view(*bytes).substr(contents_begin), &none);
   reader(contents);
   reader.Finish();
-  const size_t state_begin = sizeof(header) + header.num_bytes;
-  CheckBytes(path, *bytes, state_begin, contents.state_bytes, contents.state_checksum);
-  if (bytes->size() - state_begin != contents.state_bytes) Fail(path, "is damaged: it is too long");
-  bytes->erase(0, state_begin);
+  bytes->resize(contents_begin);
+  bytes->erase(0, sizeof(header));
   return contents;
-}
-
-std::string HeaderOf(const std::string& contents) {
-  Header header;
-  std::memcpy(header.magic, kMagic, sizeof(kMagic));
-  header.format = kFormat;
-  header.num_bytes = contents.size();
-  header.checksum = Checksum(contents);
-  return {reinterpret_cast<const char*>(&header), sizeof(header)};
 }
 
 // The journal as it was when the checkpoint was written; later objects are cut off.
@@ -151,6 +144,7 @@ CheckpointFile CheckpointFile::Open(const std::string& folder) {
   const std::string journal_path = file.JournalPath(file.number_);
   std::string journal = CheckedJournal(journal_path, contents);
   file.journal_file_ = std::make_shared<GrowingBinary>(journal_path);
+  file.journal_file_->Resize(contents.journal_bytes);
   file.journal_ = std::make_unique<ObjectJournal>(std::move(journal), SinkTo(file.journal_file_));
   file.description_ = std::move(contents.description);
   file.state_ = std::move(bytes);
@@ -185,6 +179,7 @@ void CheckpointFile::BeginJournal() {
   int last = number_;
   for (const std::string& entry : ListFolder(folder_)) last = std::max(last, JournalNumber(entry));
   auto file = std::make_shared<GrowingBinary>(JournalPath(last + 1));
+  file->Resize(0);
   number_ = last + 1;
   journal_ = std::make_unique<ObjectJournal>(SinkTo(file));
   journal_file_ = std::move(file);
@@ -192,45 +187,90 @@ void CheckpointFile::BeginJournal() {
 
 void CheckpointFile::Save(const std::function<void(BinaryWriter&)>& write_description,
                           const std::function<bool(BinaryWriter&)>& write_state) {
+  if (Write(write_description, write_state, kMaxBytes)) Commit();
+}
+
+bool CheckpointFile::Write(const std::function<void(BinaryWriter&)>& write_description,
+                           const std::function<bool(BinaryWriter&)>& write_state,
+                           uint64_t max_new_bytes) {
   try {
-    SaveUnsafely(write_description, write_state);
+    if (WriteUnsafely(write_description, write_state, max_new_bytes)) return true;
+  } catch (const ObjectJournal::NoRoom&) {
+    // The next call continues.
   } catch (...) {
     RemoveRemains();
     throw;
   }
+  RemovePartialState();
+  return false;
 }
 
-void CheckpointFile::SaveUnsafely(const std::function<void(BinaryWriter&)>& write_description,
-                                  const std::function<bool(BinaryWriter&)>& write_state) {
+bool CheckpointFile::WriteUnsafely(const std::function<void(BinaryWriter&)>& write_description,
+                                   const std::function<bool(BinaryWriter&)>& write_state,
+                                   uint64_t max_new_bytes) {
   constexpr uint64_t kMinBytes = uint64_t{16} << 20;  // below, a new journal is not worth its time
   MakeFolder(folder_);
-  if (!journal_file_ || journal_->size() > kMinBytes + 2 * journal_->num_kept_bytes()) {
+  if (!journal_file_ ||
+      (journal_->is_written() && journal_->size() > kMinBytes + 2 * journal_->num_kept_bytes())) {
     BeginJournal();
   }
+  journal_->SetRoom(max_new_bytes);
+  Header header;
+  std::memcpy(header.magic, kMagic, sizeof(kMagic));
+  header.format = kFormat;
+  header.state_checksum = kEmptyChecksum;
+  BinaryWriter state(journal_.get(), [&](std::string_view bytes) {
+    if (!partial_state_) {
+      partial_state_ = std::make_unique<GrowingBinary>(path() + ".partial");
+      partial_state_->Resize(0);
+    }
+    partial_state_->Write(sizeof(header) + header.state_bytes, bytes);
+    header.state_bytes += bytes.size();
+    header.state_checksum = Checksum(bytes, header.state_checksum);
+  });
+  if (!write_state(state)) return false;
+  state.Flush();
+  journal_->Flush();
+  journal_->Keep(state.objects());
+
   Contents contents;
   BinaryWriter description(journal_.get());
   write_description(description);
   contents.description = description.bytes();
-  BinaryWriter state(journal_.get(), num_state_bytes_);
-  if (!write_state(state)) return;
-  num_state_bytes_ = state.bytes().size() + state.bytes().size() / 8;  // expected of the next state
-  journal_->Keep(state.objects());
   contents.journal = number_;
   contents.journal_bytes = journal_->size();
   contents.journal_checksum = journal_->checksum();
-  contents.state_bytes = state.bytes().size();
-  contents.state_checksum = Checksum(state.bytes());
+  BinaryWriter rest(journal_.get());
+  rest(contents);
+  header.num_bytes = rest.bytes().size();
+  header.checksum = Checksum(rest.bytes());
+  partial_state_->Write(sizeof(header) + header.state_bytes, rest.bytes());
+  partial_state_->Write(0, {reinterpret_cast<const char*>(&header), sizeof(header)});
+  return true;
+}
 
-  journal_->Flush();
-  journal_file_->Sync();
-  BinaryWriter file(journal_.get());
-  file(contents);
-  ReplaceFileOnDisk(path(), {HeaderOf(file.bytes()), file.bytes(), state.bytes()});
+void CheckpointFile::Commit() {
+  try {
+    journal_file_->Sync();
+    partial_state_->Sync();
+    partial_state_->Rename(path());
+  } catch (...) {
+    RemoveRemains();
+    throw;
+  }
+  partial_state_.reset();
   journal_->SetWritten();
   RemoveJournals(number_);
 }
 
+void CheckpointFile::RemovePartialState() {
+  if (!partial_state_) return;
+  std::remove(partial_state_->path().c_str());
+  partial_state_.reset();
+}
+
 void CheckpointFile::RemoveRemains() {
+  RemovePartialState();
   if (!Exists(folder_)) return Remove();
   if (!journal_file_) return;
   if (!journal_->is_written()) {  // the checkpoint on the disk has another journal
@@ -240,7 +280,7 @@ void CheckpointFile::RemoveRemains() {
   }
   journal_->RollBack();
   try {
-    journal_file_->Write(journal_->written(), "");
+    journal_file_->Resize(journal_->written());
   } catch (const std::exception&) {
     // The remains only take space.
   }
@@ -262,6 +302,7 @@ void CheckpointFile::RemoveJournals(int number) const {
 
 void CheckpointFile::Remove() {
   CloseJournal();
+  partial_state_.reset();
   number_ = 0;
   if (!IsFolder(folder_)) return;
   std::remove(path().c_str());

@@ -16,9 +16,9 @@ namespace msc_vo {
 
 /// The checkpoint of a run in a folder: `state.bin`, which each checkpoint replaces, and
 /// `objects-<number>.bin`, the journal of immutable objects that it refers to. Both are versioned
-/// and have checksums. Objects go to the journal as they are written, so that a checkpoint takes
-/// little memory. A checkpoint is whole or absent: the old one is valid until the new one is
-/// complete on the disk.
+/// and have checksums. All goes to the files as it is written, so that a checkpoint takes little
+/// memory. A checkpoint is whole or absent: the old one is valid until the new one is complete on
+/// the disk.
 class CheckpointFile {
  public:
   /// Creates no file. Save() replaces an earlier checkpoint in the folder.
@@ -40,6 +40,15 @@ class CheckpointFile {
   /// checkpoint before remains, and takes no more space than before.
   void Save(const std::function<void(BinaryWriter&)>& write_description,
             const std::function<bool(BinaryWriter&)>& write_state);
+
+  /// The two parts of Save(), which throw as it does. Write() hands all bytes to the operating
+  /// system, and returns false if `write_state` does, or if new objects of `max_new_bytes` have
+  /// been written and there are more: call it again later, which continues with them. After true,
+  /// Commit() waits for the disk and replaces the checkpoint before. It may run on another thread,
+  /// and nothing else may be called until it returns.
+  bool Write(const std::function<void(BinaryWriter&)>& write_description,
+             const std::function<bool(BinaryWriter&)>& write_state, uint64_t max_new_bytes);
+  void Commit();
   /// Removes the checkpoint and its folder.
   void Remove();
 
@@ -47,13 +56,14 @@ class CheckpointFile {
   std::string path() const;
 
  private:
-  void SaveUnsafely(const std::function<void(BinaryWriter&)>& write_description,
-                    const std::function<bool(BinaryWriter&)>& write_state);
+  bool WriteUnsafely(const std::function<void(BinaryWriter&)>& write_description,
+                     const std::function<bool(BinaryWriter&)>& write_state, uint64_t max_new_bytes);
   std::string JournalPath(int number) const;
   // Removes the journals but that of `number`.
   void RemoveJournals(int number) const;
   void BeginJournal();
   void CloseJournal();
+  void RemovePartialState();
   // Removes what a checkpoint that could not be written has left.
   void RemoveRemains();
 
@@ -61,7 +71,7 @@ class CheckpointFile {
   int number_ = 0;  // of the journal; 0: none
   std::unique_ptr<ObjectJournal> journal_;
   std::shared_ptr<GrowingBinary> journal_file_;
-  size_t num_state_bytes_ = 0;  // to reserve
+  std::unique_ptr<GrowingBinary> partial_state_;  // null: none is written
   std::string description_;
   std::string state_;
 };

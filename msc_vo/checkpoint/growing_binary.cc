@@ -33,8 +33,11 @@ void GrowingBinary::Fail(const char* action) const {
                            " (check the folder and the free space)");
 }
 
+void GrowingBinary::Resize(uint64_t size) {
+  if (ftruncate(descriptor_, static_cast<off_t>(size)) != 0) Fail("written");
+}
+
 void GrowingBinary::Write(uint64_t offset, std::string_view bytes) {
-  if (ftruncate(descriptor_, static_cast<off_t>(offset)) != 0) Fail("written");
   while (!bytes.empty()) {
     const ssize_t written =
         pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
@@ -49,23 +52,9 @@ void GrowingBinary::Sync() {
   if (fdatasync(descriptor_) != 0) Fail("written");
 }
 
-void ReplaceFileOnDisk(const std::string& path, const std::vector<std::string_view>& parts) {
-  const std::string partial = path + ".partial";
-  try {
-    GrowingBinary file(partial);
-    uint64_t offset = 0;
-    for (const std::string_view part : parts) {
-      file.Write(offset, part);
-      offset += part.size();
-    }
-    file.Sync();
-    if (std::rename(partial.c_str(), path.c_str()) != 0) {
-      throw std::runtime_error(path + ": cannot be written: " + LastError());
-    }
-  } catch (const std::exception&) {
-    std::remove(partial.c_str());
-    throw;
-  }
+void GrowingBinary::Rename(const std::string& path) {
+  if (std::rename(path_.c_str(), path.c_str()) != 0) Fail("renamed");
+  path_ = path;
 }
 
 }  // namespace msc_vo

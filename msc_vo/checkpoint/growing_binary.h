@@ -6,24 +6,29 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace msc_vo {
 
-/// A binary file that grows at its end and survives a crash of the system.
+/// A binary file that survives a crash of the system. The functions throw std::runtime_error naming
+/// the file.
 class GrowingBinary {
  public:
-  /// Opens the file, or creates it. Throws std::runtime_error naming it.
+  /// Opens the file, or creates it.
   explicit GrowingBinary(const std::string& path);
   ~GrowingBinary();
   GrowingBinary(const GrowingBinary&) = delete;
   GrowingBinary& operator=(const GrowingBinary&) = delete;
 
-  /// Writes bytes from position `offset` on, and ends the file behind them. What is before `offset`
-  /// is unchanged if that fails. Both throw std::runtime_error naming the file.
+  /// Ends the file behind `size` bytes.
+  void Resize(uint64_t size);
+  /// Writes bytes from position `offset` on. What is before it does not change.
   void Write(uint64_t offset, std::string_view bytes);
   /// Waits until all is on the disk, not only with the operating system.
   void Sync();
+  /// Gives the file another name, in place of the file that had it.
+  void Rename(const std::string& path);
+
+  const std::string& path() const { return path_; }
 
  private:
   [[noreturn]] void Fail(const char* action) const;
@@ -31,9 +36,5 @@ class GrowingBinary {
   std::string path_;
   int descriptor_ = -1;
 };
-
-/// Replaces a file by `parts`, one behind the other, as WriteFile() does, on the disk. Throws
-/// std::runtime_error naming it; the file is then unchanged.
-void ReplaceFileOnDisk(const std::string& path, const std::vector<std::string_view>& parts);
 
 }  // namespace msc_vo

@@ -30,23 +30,52 @@ ObjectJournal::ObjectJournal(std::string bytes, Sink sink)
       given_checksum_(written_checksum_),
       loaded_bytes_(std::move(bytes)) {}
 
-ObjectId ObjectJournal::Find(const void* object) const {
-  const auto id = ids_.find(object);
-  return id == ids_.end() ? kNoObject : id->second;
+ObjectId ObjectJournal::Find(const std::shared_ptr<const void>& object) const {
+  const auto id = ids_.find(object.get());
+  if (id == ids_.end()) return kNoObject;
+  // The object may be at an address where another one was.
+  const std::weak_ptr<const void>& known = objects_.at(id->second).life;
+  return known.owner_before(object) || object.owner_before(known) ? kNoObject : id->second;
 }
 
-ObjectId ObjectJournal::Append(std::shared_ptr<const void> object, const std::string& bytes,
+ObjectId ObjectJournal::Append(const std::shared_ptr<const void>& object, const std::string& bytes,
                                const std::vector<ObjectId>& children) {
+  const ObjectId id = AppendBytes(bytes);
+  ids_[object.get()] = id;
+  objects_[id] = {object.get(), object, 0, size() - id, children};
+  return id;
+}
+
+ObjectId ObjectJournal::AppendContent(const std::string& bytes,
+                                      const std::vector<ObjectId>& children) {
+  const uint64_t checksum = Checksum(bytes);
+  const auto known = content_ids_.find(checksum);
+  if (known != content_ids_.end()) return known->second;
+  const ObjectId id = AppendBytes(bytes);
+  content_ids_[checksum] = id;
+  objects_[id] = {nullptr, {}, checksum, size() - id, children};
+  return id;
+}
+
+ObjectId ObjectJournal::AppendBytes(const std::string& bytes) {
+  if (size() >= end_of_room_) throw NoRoom();
+  constexpr size_t kMaxPending = size_t{1} << 18;
+  if (sink_ && pending_.size() > kMaxPending) Flush();
   const ObjectId id = size();
   const uint64_t num_bytes = bytes.size();
   pending_.append(reinterpret_cast<const char*>(&num_bytes), sizeof(num_bytes));
   pending_ += bytes;
   pending_.append(PaddedSize(num_bytes) - num_bytes, '\0');
-  ids_[object.get()] = id;
-  objects_[id] = {std::move(object), size() - id, children};
-  constexpr size_t kMaxPending = size_t{1} << 20;
-  if (sink_ && pending_.size() > kMaxPending) Flush();
   return id;
+}
+
+std::map<ObjectId, ObjectJournal::Object>::iterator ObjectJournal::Forget(
+    std::map<ObjectId, Object>::iterator object) {
+  const auto& [id, known] = *object;
+  if (known.address == nullptr) content_ids_.erase(known.checksum);
+  const auto at_address = ids_.find(known.address);
+  if (at_address != ids_.end() && at_address->second == id) ids_.erase(at_address);
+  return objects_.erase(object);
 }
 
 void ObjectJournal::Keep(const std::vector<ObjectId>& roots) {
@@ -65,8 +94,7 @@ void ObjectJournal::Keep(const std::vector<ObjectId>& roots) {
       num_kept_bytes_ += object->second.size;
       ++object;
     } else {
-      ids_.erase(object->second.pointer.get());
-      object = objects_.erase(object);
+      object = Forget(object);
     }
   }
 }
@@ -86,8 +114,7 @@ void ObjectJournal::SetWritten() {
 
 void ObjectJournal::RollBack() {
   for (auto object = objects_.lower_bound(num_written_); object != objects_.end();) {
-    ids_.erase(object->second.pointer.get());
-    object = objects_.erase(object);
+    object = Forget(object);
   }
   pending_.clear();
   num_given_ = num_written_;
@@ -115,7 +142,15 @@ void ObjectJournal::SetLoaded(ObjectId id, const std::shared_ptr<void>& object,
                               const std::type_info& type, const std::vector<ObjectId>& children) {
   loaded_.insert({id, {object, std::type_index(type)}});
   ids_[object.get()] = id;
-  objects_[id] = {object, sizeof(uint64_t) + PaddedSize(Load(id).size()), children};
+  objects_[id] = {object.get(), object, 0, sizeof(uint64_t) + PaddedSize(Load(id).size()),
+                  children};
+}
+
+void ObjectJournal::SetLoadedContent(ObjectId id, const std::vector<ObjectId>& children) {
+  const std::string_view bytes = Load(id);
+  const uint64_t checksum = Checksum(bytes);
+  content_ids_[checksum] = id;
+  objects_[id] = {nullptr, {}, checksum, sizeof(uint64_t) + PaddedSize(bytes.size()), children};
 }
 
 void ObjectJournal::FinishLoading() {

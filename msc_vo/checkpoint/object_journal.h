@@ -24,11 +24,13 @@ constexpr ObjectId kNoObject = ~ObjectId{0};
 
 /// The immutable objects that successive checkpoints of a run share, such as the frames of its
 /// keyframes: each is written once, and checkpoints refer to it. The journal knows an object by its
-/// address and keeps it alive while the last checkpoint refers to it.
+/// address or by its bytes, and does not keep it alive.
 class ObjectJournal {
  public:
   /// Takes bytes that follow those it got before; may throw.
   using Sink = std::function<void(uint64_t offset, std::string_view bytes)>;
+  /// What was written so far is of no use, but the objects that had room are in the journal.
+  struct NoRoom {};
 
   ObjectJournal() = default;
   /// A journal whose pending bytes go to `sink` now and then instead of growing.
@@ -39,10 +41,14 @@ class ObjectJournal {
   // Writing.
 
   /// The id of an object that is in the journal; kNoObject if it is not.
-  ObjectId Find(const void* object) const;
+  ObjectId Find(const std::shared_ptr<const void>& object) const;
   /// Appends an object in binary form, which refers to the objects `children`.
-  ObjectId Append(std::shared_ptr<const void> object, const std::string& bytes,
+  ObjectId Append(const std::shared_ptr<const void>& object, const std::string& bytes,
                   const std::vector<ObjectId>& children);
+  /// The id of the object with these bytes, which is appended if the journal has none.
+  ObjectId AppendContent(const std::string& bytes, const std::vector<ObjectId>& children);
+  /// Appending throws NoRoom from now on once objects of `num_bytes` have been appended.
+  void SetRoom(uint64_t num_bytes) { end_of_room_ = size() + num_bytes; }
   /// Forgets all objects but those that `roots` refer to, directly or through others.
   void Keep(const std::vector<ObjectId>& roots);
   /// Bytes of the objects that Keep() kept.
@@ -72,13 +78,17 @@ class ObjectJournal {
   std::string_view Load(ObjectId id) const;
   void SetLoaded(ObjectId id, const std::shared_ptr<void>& object, const std::type_info& type,
                  const std::vector<ObjectId>& children);
+  /// The same for an object that the journal knows by its bytes.
+  void SetLoadedContent(ObjectId id, const std::vector<ObjectId>& children);
   /// All objects are loaded: frees the bytes.
   void FinishLoading();
 
  private:
   struct Object {
-    std::shared_ptr<const void> pointer;
-    uint64_t size = 0;  // bytes
+    const void* address = nullptr;   // null: it is known by its bytes
+    std::weak_ptr<const void> life;  // of what is at the address
+    uint64_t checksum = 0;           // of the bytes it is known by
+    uint64_t size = 0;               // bytes
     std::vector<ObjectId> children;
   };
   struct LoadedObject {
@@ -86,9 +96,15 @@ class ObjectJournal {
     std::type_index type;
   };
 
-  std::unordered_map<const void*, ObjectId> ids_;
+  ObjectId AppendBytes(const std::string& bytes);
+  // Removes an object; returns the next one.
+  std::map<ObjectId, Object>::iterator Forget(std::map<ObjectId, Object>::iterator object);
+
+  std::unordered_map<const void*, ObjectId> ids_;       // by address
+  std::unordered_map<uint64_t, ObjectId> content_ids_;  // by checksum
   std::map<ObjectId, Object> objects_;
   uint64_t num_kept_bytes_ = 0;
+  uint64_t end_of_room_ = ~uint64_t{0};
   bool is_written_ = false;
   uint64_t num_written_ = 0;
   uint64_t written_checksum_ = kEmptyChecksum;

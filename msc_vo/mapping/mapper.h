@@ -120,7 +120,7 @@ class Mapper {
   template <typename Archive>
   void Serialize(Archive& archive) {
     auto& [options, submaps, calibration, inserter, loops, care, optimizer] = *this;  // all members
-    archive(submaps, calibration, inserter, loops, care, optimizer);
+    archive(calibration, inserter, loops, care, optimizer, submaps);
   }
 
  private:

@@ -69,11 +69,13 @@ struct Odometry::State {
   void AddUntracked(int64_t id, double timestamp, TrackingStatus status);
   void Record(int frame, const MappingStep& step);
 
-  // Everything that later results depend on, except what the options determine.
+  // Everything that later results depend on, except what the options determine. Maps are last: they
+  // change while other objects of a checkpoint are written in parts.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    archive(images, tracker, mapper, calibration, last_window, packets, results, relative_poses,
-            odometry_pose, refiner, segments, loops, log, sessions, schedule);
+    archive(images, last_window, odometry_pose, segments, loops, log, sessions, refiner);
+    archive.Blocks(results), archive.Blocks(relative_poses);
+    archive(packets, calibration, tracker, mapper, schedule);
   }
 
   bool has_started = false;  // an image has been given to this object
@@ -293,12 +295,10 @@ FrameResult Odometry::Process(const RgbdImage& image) {
   State& run = *state_;
   run.Check(image);
   run.has_started = true;
-  const size_t num_before = run.results.size();
+  const int last = run.last();
   FirstError error;
   error.Catch([&] { run.ProcessImage(image, &error); });
-  if (run.results.size() == num_before) {
-    run.AddUntracked(image.id, image.timestamp, TrackingStatus::kLost);
-  }
+  if (run.last() == last) run.AddUntracked(image.id, image.timestamp, TrackingStatus::kLost);
   error.Throw();
   return run.results.back();
 }
@@ -349,6 +349,8 @@ bool Odometry::RunMapping(double budget) {
 
 const std::vector<FrameResult>& Odometry::frames() const { return state_->results; }
 
+bool Odometry::IsMapping() { return !state_->schedule.IsMapperIdle(); }
+
 bool Odometry::Save(BinaryWriter* archive) {
   if (!state_->schedule.WaitForMapper()) return false;
   state_->Serialize(*archive);
@@ -391,8 +393,7 @@ OdometryResult Odometry::Finish() {
   result.num_late_maps = state_->schedule.num_late();
   result.extra_blocks = state_->mapper.extra_blocks();
   result.last_window = state_->last_window;
-  const int num_frames = static_cast<int>(result.frames.size());
-  state_->log.LogFinish(result.noise_scale, result.readout_time, num_frames);
+  state_->log.LogFinish(result.noise_scale, result.readout_time, state_->last() + 1);
   return result;
 }
 

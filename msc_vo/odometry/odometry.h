@@ -205,6 +205,8 @@ class Odometry {
   /// not thrown yet.
   std::optional<MapContents> ShareMaps(const std::string& session);
 
+  /// Whether the mapper works on keyframes, so that Save() would wait.
+  bool IsMapping();
   /// Waits for the mapper and writes the state of the run (checkpoint/checkpoint_file.h). A run
   /// that restores it continues with the same results, bit by bit. Writes nothing and returns false
   /// if a keyframe step has failed and its exception is not thrown yet. Custom factors have to save

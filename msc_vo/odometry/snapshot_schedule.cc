@@ -73,6 +73,14 @@ bool SnapshotSchedule::WaitForMapper() {
   return succeeded;
 }
 
+bool SnapshotSchedule::IsMapperIdle() {
+  for (PendingStep& pending : pending_) {
+    Take(false, &pending);
+    if (!pending.step) return false;
+  }
+  return true;
+}
+
 // Whether one of the pending maps is due at the time of a frame. Earlier ones are then used as
 // well, because a keyframe is inserted into the map that has been refined with the previous one.
 bool SnapshotSchedule::IsAnyDue(double timestamp) const {

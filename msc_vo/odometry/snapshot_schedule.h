@@ -72,6 +72,8 @@ class SnapshotSchedule {
   /// Waits until the mapper is idle. Its maps become visible when they are due nevertheless.
   /// Returns whether all steps have succeeded.
   bool WaitForMapper();
+  /// Whether WaitForMapper() would not wait.
+  bool IsMapperIdle();
   /// Lists the state for a checkpoint, after WaitForMapper() has returned true.
   template <typename Archive>
   void Serialize(Archive& archive) {

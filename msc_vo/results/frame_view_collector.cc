@@ -37,9 +37,9 @@ void FrameViewCollector::Add(const TrackedImage& tracked) {
   const int frame = static_cast<int>(tracked.result.id);
   const int keyframe = tracked.result.is_keyframe ? num_keyframes_++ : -1;
   if (!IsKept(frame, keyframe)) return;
-  FrameView view = {frame, EncodeThumbnail(tracked.image.gray),
-                    TrackedFeatures(tracked, distortion_)};
-  num_bytes_ += NumBytes(view);
+  auto view = std::make_shared<FrameView>(
+      FrameView{frame, EncodeThumbnail(tracked.image.gray), TrackedFeatures(tracked, distortion_)});
+  num_bytes_ += NumBytes(*view);
   entries_[frame] = {std::move(view), keyframe};
   while (num_bytes_ > limits_.max_bytes && Thin()) {
   }
@@ -66,7 +66,7 @@ bool FrameViewCollector::Thin() {
     if (IsKept(it->first, it->second.keyframe)) {
       ++it;
     } else {
-      num_bytes_ -= NumBytes(it->second.view);
+      num_bytes_ -= NumBytes(*it->second.view);
       it = entries_.erase(it);
     }
   }
@@ -75,7 +75,7 @@ bool FrameViewCollector::Thin() {
 
 std::vector<FrameView> FrameViewCollector::Take() {
   std::vector<FrameView> views;
-  for (auto& [frame, entry] : entries_) views.push_back(std::move(entry.view));
+  for (auto& [frame, entry] : entries_) views.push_back(std::move(*entry.view));
   entries_.clear();
   num_bytes_ = 0;
   return views;

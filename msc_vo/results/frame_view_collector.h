@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -49,8 +50,8 @@ class FrameViewCollector {
 
  private:
   struct Entry {
-    FrameView view;
-    int keyframe = -1;  // number of the keyframe; -1: another frame
+    std::shared_ptr<FrameView> view;  // unchanged until Take(): checkpoints write it once
+    int keyframe = -1;                // number of the keyframe; -1: another frame
 
     template <typename Archive>
     void Serialize(Archive& archive) {

@@ -101,14 +101,117 @@ TEST(BinaryArchive, WritesSharedObjectsOnceAndForgetsThoseThatAreNotNeeded) {
   journal.Keep(first.objects());
   const uint64_t size = journal.size();
   EXPECT_EQ(journal.num_kept_bytes(), size);
-  EXPECT_EQ(example.first.use_count(), 3);  // both pointers and the journal
+  EXPECT_EQ(example.first.use_count(), 2);  // both pointers, not the journal
   BinaryWriter second(&journal);
   second(example);
   EXPECT_EQ(journal.size(), size);
   EXPECT_EQ(second.bytes(), first.bytes());
   journal.Keep({});
   EXPECT_EQ(journal.num_kept_bytes(), 0u);
-  EXPECT_EQ(example.first.use_count(), 2);
+  BinaryWriter third(&journal);
+  third(example);
+  EXPECT_EQ(journal.size(), 2 * size);
+}
+
+TEST(BinaryArchive, KnowsAnotherObjectAtTheSameAddress) {
+  Part storage{1.0, 1};
+  const auto no_deleter = [](const Part*) {};
+  ObjectJournal journal;
+  std::shared_ptr<const Part> part(&storage, no_deleter);
+  BinaryWriter first(&journal);
+  first(part);
+  part.reset();
+  storage.value = 2.0;
+  part.reset(&storage, no_deleter);
+  BinaryWriter second(&journal);
+  second(part);
+  EXPECT_NE(second.objects(), first.objects());
+  journal.Keep(second.objects());
+  BinaryWriter third(&journal);
+  third(part);
+  EXPECT_EQ(third.objects(), second.objects());
+}
+
+TEST(BinaryArchive, WritesOnlyBlocksThatHaveChanged) {
+  constexpr size_t kSize = 2 * BinaryWriter::kBlockSize + 10;
+  std::vector<Part> parts;
+  for (size_t i = 0; i < kSize; ++i) parts.push_back({static_cast<double>(i), std::nullopt});
+  ObjectJournal journal;
+  BinaryWriter first(&journal);
+  first.Blocks(parts);
+  const uint64_t size = journal.size();
+  parts[BinaryWriter::kBlockSize].count = 5;
+  parts.push_back({-1.0, 7});
+  BinaryWriter second(&journal);
+  second.Blocks(parts);
+  EXPECT_EQ(second.objects().front(), first.objects().front());
+  EXPECT_NE(second.objects()[1], first.objects()[1]);
+  EXPECT_LT(journal.size(), 2 * size);
+
+  ObjectJournal loaded(journal.pending());
+  BinaryReader reader(second.bytes(), &loaded);
+  std::vector<Part> restored;
+  reader.Blocks(restored);
+  reader.Finish();
+  ASSERT_EQ(restored.size(), parts.size());
+  for (size_t i = 0; i < parts.size(); ++i) {
+    EXPECT_EQ(restored[i].value, parts[i].value);
+    EXPECT_EQ(restored[i].count, parts[i].count);
+  }
+  loaded.FinishLoading();
+  loaded.Keep(reader.objects());
+  BinaryWriter again(&loaded);
+  again.Blocks(restored);
+  EXPECT_EQ(again.objects(), second.objects());
+  EXPECT_EQ(loaded.pending(), "");
+}
+
+TEST(BinaryArchive, ContinuesWhereTheJournalHadNoRoom) {
+  using Node = std::vector<std::shared_ptr<const std::string>>;
+  auto node = std::make_shared<Node>();
+  for (int i = 0; i < 4; ++i) node->push_back(std::make_shared<std::string>(100, 'x'));
+  const std::shared_ptr<const Node> root = node;
+  ObjectJournal journal;
+  int num_parts = 0;
+  for (bool is_whole = false; !is_whole; ++num_parts) {
+    journal.SetRoom(150);  // two strings at a time
+    BinaryWriter writer(&journal);
+    ASSERT_LT(num_parts, 5);
+    try {
+      writer(root);
+      is_whole = true;
+    } catch (const ObjectJournal::NoRoom&) {
+    }
+  }
+  EXPECT_EQ(num_parts, 3);
+  BinaryWriter writer(&journal);
+  writer(root);
+  ObjectJournal loaded(journal.pending());
+  BinaryReader reader(writer.bytes(), &loaded);
+  std::shared_ptr<const Node> restored;
+  reader(restored);
+  reader.Finish();
+  ASSERT_EQ(restored->size(), 4u);
+  for (const auto& text : *restored) EXPECT_EQ(*text, std::string(100, 'x'));
+}
+
+TEST(BinaryArchive, GivesItsBytesToASink) {
+  const std::vector<double> numbers(100'000, 0.5);
+  const std::string text(300'003, 'y');
+  ObjectJournal journal;
+  BinaryWriter whole(&journal);
+  whole(true, numbers, text, 3);
+  std::string collected;
+  int num_parts = 0;
+  BinaryWriter writer(&journal, [&](std::string_view bytes) {
+    EXPECT_EQ(collected.size() % 8, 0u);
+    collected += bytes;
+    ++num_parts;
+  });
+  writer(true, numbers, text, 3);
+  writer.Flush();
+  EXPECT_EQ(collected, whole.bytes());
+  EXPECT_GT(num_parts, 2);
 }
 
 // No prefix and no changed byte leads to anything but the values or an error.

@@ -118,10 +118,12 @@ TEST_F(ExternalMappingTest, SavesAndRestoresWithPendingWork) {
   Odometry first(Options(1, true), camera_, {}), second(Options(1, true), camera_, {});
   size_t next = 0;
   while (next < 20 || !first.MappingPending()) first.Process(images_->at(next++));
+  EXPECT_TRUE(first.IsMapping());
   first.RunMapping(0.001);
   ObjectJournal journal;
   BinaryWriter writer(&journal);
   ASSERT_TRUE(first.Save(&writer));
+  EXPECT_FALSE(first.IsMapping());
   EXPECT_FALSE(first.MappingPending());
   ObjectJournal loaded(journal.pending());
   BinaryReader reader(writer.bytes(), &loaded);
