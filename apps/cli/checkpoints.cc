@@ -53,7 +53,7 @@ void Checkpoints::Restore(Odometry* odometry, CostMeter* cost, LoopProgress* pro
 void Checkpoints::SaveIfDue(Odometry* odometry, const CostMeter& cost,
                             const LoopProgress& progress) {
   constexpr double kLongestDelay = 1000.0;  // milliseconds, by a mapper that is never idle
-  constexpr uint64_t kMaxNewBytes = uint64_t{3} << 20;  // some 3 ms
+  constexpr uint64_t kMaxNewBytes = uint64_t{2} << 20;  // some 2 ms
   const double delay = since_saved_.Milliseconds() - 1000.0 * pause_.value_or(0.0);
   if (delay < 0.0 || progress.num_images == progress.num_unreadable) return;
   if (interval_ == 0.0) return Save(odometry, cost, progress);
@@ -103,7 +103,6 @@ void Checkpoints::Write(Odometry* odometry, const CostMeter& cost, const LoopPro
   });
   const double part = stopwatch.Milliseconds();
   duration_ += part;
-  if (getenv("CKPT")) fprintf(stderr, "PART %d ms %.2f\n", is_written, part);
   longest_part_ = std::max(longest_part_, part);
   if (!is_written) return;
   Log().debug("checkpoint of {} images in {:.1f} ms, at most {:.1f} ms after an image",

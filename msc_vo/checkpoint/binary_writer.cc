@@ -8,7 +8,7 @@ namespace msc_vo {
 void BinaryWriter::Collect() {
   bytes_.append(recent_.data(), num_recent_);
   num_recent_ = 0;
-  constexpr size_t kMaxBytes = size_t{1} << 18;
+  constexpr size_t kMaxBytes = size_t{1} << 22;
   if (!sink_ || bytes_.size() < kMaxBytes) return;
   const size_t size = bytes_.size() / 8 * 8;
   sink_(std::string_view(bytes_).substr(0, size));
