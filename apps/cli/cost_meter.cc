@@ -29,9 +29,7 @@ double ProcessorSeconds() {
 // Writing 5 to clear_refs resets the peak on Linux (man 5 proc). If that is not permitted, the peak
 // since the start of the process is reported.
 void ResetPeakMemory() {
-#ifdef __GLIBC__
-  malloc_trim(0);
-#endif
+  ReturnFreedMemory();
   std::ofstream("/proc/self/clear_refs") << "5" << std::flush;
 }
 
@@ -48,6 +46,12 @@ double PeakMemory() {
 }
 
 }  // namespace
+
+void ReturnFreedMemory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
 
 CostMeter::CostMeter() {
   ResetPeakMemory();

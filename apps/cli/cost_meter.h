@@ -8,6 +8,9 @@
 
 namespace msc_vo {
 
+/// Returns memory that was freed to the system, also from between memory in use.
+void ReturnFreedMemory();
+
 /// Measures wall time, processor time and peak memory of the process since construction. The
 /// constructor first returns freed memory to the system, so that the peak excludes earlier work.
 class CostMeter {

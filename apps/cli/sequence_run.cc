@@ -219,6 +219,7 @@ SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configu
       MakeImageFeed(decoder, progress.num_images, num_frames, options.snapshots.realtime);
   FrameLoop loop(decoder, num_frames, arguments.strict, feed.get(), &odometry, progress);
   RunLoop(arguments, num_frames, interrupt, callbacks, cost, &odometry, &loop, &run);
+  ReturnFreedMemory();  // for the final bundle adjustment of lines, which is larger than a window
   FinishOdometry(&odometry, &run);
   if (callbacks.map != nullptr) SaveMap(callbacks.map, &odometry, &run);
   context.cost = cost.Read();

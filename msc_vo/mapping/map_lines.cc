@@ -23,8 +23,8 @@ std::map<LandmarkId, RefinedLine> RefineMapLines(const MapperOptions& options, c
   if (axes.estimator().state() != AxesState::kRefined || map.keyframes().empty()) return refined;
   WindowData window = SelectWholeMap(options.selection, map);
   for (WindowData::Keyframe& keyframe : window.keyframes) keyframe.fixed = true;
-  window.points.clear();
-  window.point_observations.clear();
+  window.points = {};  // frees their memory
+  window.point_observations = {};
   submap.noise.Apply(&window);
   axes.AddAllAlignments(&window);
   pairs.Add(pairs.Find(window), &window);
