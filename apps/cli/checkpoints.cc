@@ -59,7 +59,10 @@ void Checkpoints::SaveIfDue(Odometry* odometry, const CostMeter& cost,
   if (interval_ == 0.0) return Save(odometry, cost, progress);
   const bool is_free =
       !commit_.valid() || commit_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-  if (!is_free || (delay < kLongestDelay && odometry->IsMapping())) return;
+  if (!is_free ||
+      (std::min(delay, since_part_.Milliseconds()) < kLongestDelay && odometry->IsMapping())) {
+    return;
+  }
   Write(odometry, cost, progress, kMaxNewBytes);
 }
 
@@ -102,6 +105,7 @@ void Checkpoints::Write(Odometry* odometry, const CostMeter& cost, const LoopPro
     if (is_written) commit_ = std::async(std::launch::async, [this] { file_.Commit(); });
   });
   const double part = stopwatch.Milliseconds();
+  since_part_.Restart();
   duration_ += part;
   longest_part_ = std::max(longest_part_, part);
   if (!is_written) return;

@@ -72,8 +72,9 @@ class Checkpoints {
   CheckpointedParts parts_;
   Stopwatch since_saved_;
   std::optional<double> pause_;  // seconds until the next one is due; none: at once
-  double duration_ = 0.0;        // of the parts of the next one so far, milliseconds
-  double longest_part_ = 0.0;    // of these
+  Stopwatch since_part_;
+  double duration_ = 0.0;      // of the parts of the next one so far, milliseconds
+  double longest_part_ = 0.0;  // of these
   bool has_warned_ = false;
   std::future<void> commit_;  // valid while a checkpoint is being completed; last: it uses the file
 };
