@@ -56,7 +56,7 @@ void Checkpoints::SaveIfDue(Odometry* odometry, const CostMeter& cost,
   constexpr uint64_t kMaxNewBytes = uint64_t{2} << 20;  // some 2 ms
   const double delay = since_saved_.Milliseconds() - 1000.0 * pause_.value_or(0.0);
   if (delay < 0.0 || progress.num_images == progress.num_unreadable) return;
-  if (interval_ == 0.0) return Save(odometry, cost, progress);
+  if (!pause_ || interval_ == 0.0) return Save(odometry, cost, progress);
   const bool is_free =
       !commit_.valid() || commit_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
   if (!is_free ||
