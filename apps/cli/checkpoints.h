@@ -36,9 +36,9 @@ struct CheckpointedParts {
 };
 
 /// Writes checkpoints of a run while it is in progress, and restores them. The clock decides when a
-/// checkpoint is written, and affects nothing else. Images wait for neither the disk nor the
-/// mapper: a checkpoint is begun when the mapper is idle, and written in parts after successive
-/// images if it is large.
+/// checkpoint is written, and affects nothing else. The first image waits for the first one. Other
+/// images wait for neither the disk nor the mapper: a checkpoint is begun when the mapper is idle,
+/// and written in parts after successive images if it is large.
 class Checkpoints {
  public:
   /// `interval`: seconds between checkpoints. 0: after every image, which waits until it is
