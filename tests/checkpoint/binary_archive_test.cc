@@ -196,11 +196,11 @@ TEST(BinaryArchive, ContinuesWhereTheJournalHadNoRoom) {
 }
 
 TEST(BinaryArchive, GivesItsBytesToASink) {
-  const std::vector<double> numbers(100'000, 0.5);
+  const std::vector<double> numbers(1'000'000, 0.5);
   const std::string text(300'003, 'y');
   ObjectJournal journal;
   BinaryWriter whole(&journal);
-  whole(true, numbers, text, 3);
+  whole(true, numbers, text, numbers, 3);
   std::string collected;
   int num_parts = 0;
   BinaryWriter writer(&journal, [&](std::string_view bytes) {
@@ -208,7 +208,7 @@ TEST(BinaryArchive, GivesItsBytesToASink) {
     collected += bytes;
     ++num_parts;
   });
-  writer(true, numbers, text, 3);
+  writer(true, numbers, text, numbers, 3);
   writer.Flush();
   EXPECT_EQ(collected, whole.bytes());
   EXPECT_GT(num_parts, 2);
