@@ -60,8 +60,9 @@ PoseGraphEdge LoopCloser::EdgeOf(const Map& map, const KeyframeRevisit& visit) c
 bool LoopCloser::IsPossible(const Map& map, const KeyframeRevisit& visit) const {
   const PoseGraphEdge edge = EdgeOf(map, visit);
   const Rigid3 by_path = map.CamFromWorld(edge.to) * map.CamFromWorld(edge.from).Inverse();
-  return IsPossibleDrift(map, edge.from, edge.to, by_path, edge.to_from_from,
-                         CameraCovariance(edge.to_from_from, edge.covariance));
+  return IsPossibleDrift(by_path, edge.to_from_from,
+                         PathCovariances(map, loop_edges_, edge.to).OfRoot(edge.from) +
+                             CameraCovariance(edge.to_from_from, edge.covariance));
 }
 
 PoseGraph LoopCloser::MakeGraph(const Map& map) const {

@@ -218,6 +218,7 @@ MapSnapshotPtr Mapper::Snapshot() {
   snapshot->inactive_maps = atlas_.inactive_maps();
   snapshot->newest_keyframe = inserter_.newest();
   snapshot->num_loops = loops_.num_closed();
+  snapshot->loops = loops_.edges();
   snapshot->noise_scale = submap.noise.scale();
   calibration_.Describe(&*snapshot);
   snapshot->axes = submap.axes.Estimate();
