@@ -119,9 +119,10 @@ void PathCovariances::FindPaths(const std::vector<Edge>& edges, size_t root) {
   }
 }
 
-PoseCovariance PathCovariances::Of(KeyframeId keyframe) const {
+PoseCovariance PathCovariances::Of(KeyframeId keyframe, const Rigid3& cam_from_keyframe) const {
   const Node* node = Find(keyframe);
-  return node->drift.At(node->root_from_cam.Inverse());
+  return node->drift.At(cam_from_keyframe * node->root_from_cam.Inverse(),
+                        cam_from_keyframe.translation().norm());
 }
 
 PoseCovariance PathCovariances::OfRoot(KeyframeId keyframe) const {

@@ -49,19 +49,19 @@ class PathDrift {
 PoseCovariance PathCovariance(const Map& map, KeyframeId a, KeyframeId b);
 
 /// How uncertain the poses of all keyframes are relative to one of them, the root. The steps of
-/// odometry and the closed loops link the keyframes to a graph; a loop is a step between the two
-/// keyframes that show one place. The covariance of a pose is that along the path through the graph
-/// with the smallest trace (metres and radians, frame of the root). It is not smaller than the
-/// marginal covariance of the graph, to which the other paths add information.
+/// odometry and the closed loops link the keyframes to a graph; an edge of a loop is a step between
+/// the two keyframes that show one place. The covariance of a pose is that along the path through
+/// the graph with the smallest trace (metres and radians, frame of the root). It is not smaller
+/// than the marginal covariance of the graph, to which the other paths add information.
 class PathCovariances {
  public:
   /// `loops`: those of keyframes that the map does not know are left out. `root` is or was in the
   /// map.
   PathCovariances(const Map& map, const std::vector<PoseGraphEdge>& loops, KeyframeId root);
 
-  /// Covariance of the pose of a keyframe relative to the root, in the frame of the keyframe, as by
-  /// CameraCovariance(). The keyframe is or was in the map.
-  PoseCovariance Of(KeyframeId keyframe) const;
+  /// Covariance of the pose of a keyframe, or of a camera near it, relative to the root, as by
+  /// CameraCovariance(): in the frame of the camera. The keyframe is or was in the map.
+  PoseCovariance Of(KeyframeId keyframe, const Rigid3& cam_from_keyframe = Rigid3()) const;
   /// Covariance of the pose of the root relative to a keyframe, in the frame of the root.
   PoseCovariance OfRoot(KeyframeId keyframe) const;
 

@@ -118,6 +118,7 @@ void Mapper::Create(KeyframeTask* task) {
     inserter_.Insert(task->packet_, std::exchange(task->frame_, nullptr), &atlas_, &summary);
     care_.Renew(summary.keyframe, &atlas_.current().map);
     SubMap& submap = atlas_.current();
+    loops_.AddKeyframe(submap.map, summary.keyframe, task->packet_.reference);
     submap.planes.AddKeyframe(submap.map, summary.keyframe, task->packet_.covariance);
   });
 }

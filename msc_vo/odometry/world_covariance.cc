@@ -18,7 +18,7 @@ PathCovariances FromOrigin(const Map& map, const std::vector<PoseGraphEdge>& loo
 // Of a camera, relative to the origin, in its own frame. `camera`: relative to the map nearby.
 PoseCovariance WithDrift(const PathCovariances& keyframes, const ReferencedPose& pose,
                          const PoseCovariance& camera) {
-  return camera + TransportCovariance(pose.cam_from_reference, keyframes.Of(pose.reference));
+  return camera + keyframes.Of(pose.reference, pose.cam_from_reference);
 }
 
 }  // namespace

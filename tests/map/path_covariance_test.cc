@@ -149,6 +149,18 @@ TEST_F(LoopCovarianceTest, IsThatOfThePathWithoutLoops) {
   }
 }
 
+TEST_F(LoopCovarianceTest, GoesOnToACameraNearAKeyframe) {
+  const PathCovariances covariances(map_, {}, 0);
+  const Rigid3 cam_from_keyframe(ExpSO3({0.0, 0.5, 0.0}), {0.6, 0.0, 0.8});  // 1 m
+  const PoseCovariance camera = covariances.Of(2, cam_from_keyframe);
+  // The rotation, 10 mrad twice with four times the variance, has a lever of 1 m across it.
+  const double length = 2.0 * 8.0 * std::sin(M_PI / kNumKeyframes) + 1.0;
+  const double systematic = std::pow(0.05 * M_PI / 180.0 * length, 2);
+  EXPECT_NEAR(camera(1, 1), 8.0 * std::pow(0.01, 2) + systematic, 1e-9);
+  EXPECT_GT(camera.bottomRightCorner<3, 3>().trace(),
+            covariances.Of(2).bottomRightCorner<3, 3>().trace());
+}
+
 TEST_F(LoopCovarianceTest, TakesTheShorterWayThroughLoops) {
   const std::vector<PoseGraphEdge> loops{EdgeBetween(0, 23)};
   const PathCovariances open(map_, {}, 0), closed(map_, loops, 0);
