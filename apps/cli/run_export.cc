@@ -157,9 +157,12 @@ void WriteMcap(const RunExport& arguments) {
     frame.nanoseconds = 1000 * found->first;
     frame.world_from_cam = pose.world_from_cam;
     frame.odom_from_cam = found->second.odom_from_cam;
-    if (found->second.covariance) {
-      frame.covariance = CameraCovariance(pose.world_from_cam.Inverse(), *found->second.covariance);
-    }
+    const auto of_camera = [](const Rigid3& pose, const std::optional<PoseCovariance>& covariance) {
+      return covariance ? std::make_optional(CameraCovariance(pose.Inverse(), *covariance))
+                        : std::nullopt;
+    };
+    frame.world_covariance = of_camera(frame.world_from_cam, found->second.world_covariance);
+    frame.odom_covariance = of_camera(frame.odom_from_cam, found->second.odometry_covariance);
     run.frames.push_back(std::move(frame));
   }
   AddMap(arguments.run, poses.front().world, &run);

@@ -20,6 +20,10 @@ namespace {
 
 using RowMajor6d = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 
+std::optional<RowMajor6d> MatrixOf(const std::optional<PoseCovariance>& covariance) {
+  return covariance ? std::make_optional<RowMajor6d>(*covariance) : std::nullopt;
+}
+
 py::object NewFromOld(const WorldChange& change) {
   return change.new_from_old ? py::cast(PoseMatrix(*change.new_from_old)) : py::none();
 }
@@ -74,6 +78,25 @@ void BindPoses(py::class_<FrameResult>* frame) {
           "4x4; inv(cam_from_world) @ cam_from_odometry.");
 }
 
+void BindCovariances(py::class_<FrameResult>* frame) {
+  frame
+      ->def_property_readonly(
+          "covariance", [](const FrameResult& self) { return MatrixOf(self.covariance); },
+          "6x6 of cam_from_world relative to the map nearby: rotation vector in the camera frame "
+          "(radians), then translation (metres); None if nothing determines the pose, as in the "
+          "frame that begins a world.")
+      .def_property_readonly(
+          "world_covariance",
+          [](const FrameResult& self) { return MatrixOf(self.world_covariance); },
+          "6x6 of cam_from_world relative to the origin of the world, with the drift of the map; "
+          "tangent and None as covariance.")
+      .def_property_readonly(
+          "odometry_covariance",
+          [](const FrameResult& self) { return MatrixOf(self.odometry_covariance); },
+          "6x6 of cam_from_odometry, with the drift of the whole path; tangent and None as "
+          "covariance.");
+}
+
 }  // namespace
 
 void BindFrame(py::module_* module) {
@@ -94,14 +117,6 @@ void BindFrame(py::module_* module) {
                     "Whether pose factors, not constant velocity, predict the pose.")
       .def_readonly("is_keyframe", &FrameResult::is_keyframe, "Whether it became a keyframe.")
       .def_property_readonly(
-          "covariance",
-          [](const FrameResult& self) -> std::optional<RowMajor6d> {
-            if (!self.covariance) return std::nullopt;
-            return RowMajor6d(*self.covariance);
-          },
-          "6x6 of cam_from_world: rotation vector in the camera frame (radians), then translation "
-          "(metres); None if nothing determines the pose, as in the frame that begins a world.")
-      .def_property_readonly(
           "cause",
           [](const FrameResult& self) -> std::optional<std::string> {
             if (!self.cause) return std::nullopt;
@@ -121,6 +136,7 @@ void BindFrame(py::module_* module) {
       .def_property_readonly("times", &TimesOf, "Milliseconds by stage, as in frames.csv.")
       .def("__repr__", &DescribeFrame);
   BindPoses(&frame);
+  BindCovariances(&frame);
 }
 
 }  // namespace msc_vo

@@ -121,17 +121,15 @@ RowMajorMatrix AllRows(const OdometryResult& result) {
 }
 
 // One per frame; nan where nothing determines the pose.
-py::array_t<double> CovariancesOf(const OdometryResult& result) {
+py::array_t<double> CovariancesOf(const OdometryResult& result,
+                                  std::optional<PoseCovariance> FrameResult::*covariance) {
   const auto size = static_cast<py::ssize_t>(result.frames.size());
   py::array_t<double> covariances({size, py::ssize_t{6}, py::ssize_t{6}});
   double* to = covariances.mutable_data();
   for (const FrameResult& frame : result.frames) {
     Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>> matrix(to);
-    if (frame.covariance) {
-      matrix = *frame.covariance;
-    } else {
-      matrix.setConstant(std::numeric_limits<double>::quiet_NaN());
-    }
+    matrix = (frame.*covariance)
+                 .value_or(PoseCovariance::Constant(std::numeric_limits<double>::quiet_NaN()));
     to += matrix.size();
   }
   return covariances;
@@ -278,6 +276,25 @@ void BindAxesOf(ResultClass* result) {
           "Standard deviation of the least certain axis, radians.");
 }
 
+void BindCovariancesOf(ResultClass* result) {
+  using Result = OdometryResult;
+  result
+      ->def_property_readonly(
+          "covariances",
+          [](const Result& self) { return CovariancesOf(self, &FrameResult::covariance); },
+          "(N, 6, 6), one per frame, of cam_from_world as FrameResult.covariance; nan where "
+          "nothing "
+          "determines the pose.")
+      .def_property_readonly(
+          "world_covariances",
+          [](const Result& self) { return CovariancesOf(self, &FrameResult::world_covariance); },
+          "(N, 6, 6), as covariances, of FrameResult.world_covariance.")
+      .def_property_readonly(
+          "odometry_covariances",
+          [](const Result& self) { return CovariancesOf(self, &FrameResult::odometry_covariance); },
+          "(N, 6, 6), as covariances, of FrameResult.odometry_covariance.");
+}
+
 }  // namespace
 
 void BindResult(py::module_* module) {
@@ -287,14 +304,12 @@ void BindResult(py::module_* module) {
   BindCalibrationOf(&result);
   BindAxesOf(&result);
   BindPlanesOf(&result);
+  BindCovariancesOf(&result);
   result
       .def_property_readonly("trajectory", &AllRows,
                              "(N, 8) rows t tx ty tz qx qy qz qw, one per frame, camera in world; "
                              "nan in frames before "
                              "the first segment, which have no pose.")
-      .def_property_readonly("covariances", &CovariancesOf,
-                             "(N, 6, 6), one per frame, of cam_from_world as "
-                             "FrameResult.covariance; nan where nothing determines the pose.")
       .def_property_readonly("status", &StatusOf, "(N,) str, FrameResult.status of every frame.")
       .def_property_readonly("segment", &SegmentOf,
                              "(N,) number of the segment that each frame belongs to; -1: none.")

@@ -66,6 +66,9 @@ void CheckFieldCount(const T& value) {
   } else if constexpr (count == 21) {
     [[maybe_unused]] const auto& [f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15,
                                   f16, f17, f18, f19, f20, f21] = value;
+  } else if constexpr (count == 22) {
+    [[maybe_unused]] const auto& [f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15,
+                                  f16, f17, f18, f19, f20, f21, f22] = value;
   } else {
     static_assert(internal::kNever<T>, "add a case for this number of fields");
   }

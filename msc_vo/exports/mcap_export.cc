@@ -95,17 +95,17 @@ void WritePoses(const McapFrame* before, const McapFrame& frame, RosBag* bag) {
       FormatTransforms({{{time, kMap}, kOdometry, map_from_camera * odom_from_camera.Inverse()},
                         {{time, kOdometry}, kCamera, odom_from_camera},
                         {{time, kCamera}, kOptical, {RosFromOptical(), Eigen::Vector3d::Zero()}}}));
-  std::optional<RosCovariance> in_map, in_odom;
-  if (frame.covariance) {
-    in_map = CovarianceWithRosAxes(Eigen::Quaterniond(frame.world_from_cam.rotation()),
-                                   *frame.covariance);
-    in_odom = CovarianceWithRosAxes(Eigen::Quaterniond(frame.odom_from_cam.rotation()),
-                                    *frame.covariance);
-  }
+  const auto with_ros_axes = [](const Rigid3& pose, const std::optional<PoseCovariance>& camera) {
+    return camera ? std::make_optional(
+                        CovarianceWithRosAxes(Eigen::Quaterniond(pose.rotation()), *camera))
+                  : std::nullopt;
+  };
   bag->Write("/msc_vo/pose", "geometry_msgs/PoseWithCovarianceStamped", time,
-             FormatPose({time, kMap}, map_from_camera, in_map));
+             FormatPose({time, kMap}, map_from_camera,
+                        with_ros_axes(frame.world_from_cam, frame.world_covariance)));
   bag->Write("/msc_vo/odometry", "nav_msgs/Odometry", time,
-             FormatOdometry({time, kOdometry}, kCamera, odom_from_camera, in_odom,
+             FormatOdometry({time, kOdometry}, kCamera, odom_from_camera,
+                            with_ros_axes(frame.odom_from_cam, frame.odom_covariance),
                             VelocityOf(before, frame)));
 }
 

@@ -21,8 +21,8 @@ struct McapFrame {
   int64_t nanoseconds = 0;  ///< since 1970
   Rigid3 world_from_cam;
   Rigid3 odom_from_cam;
-  std::optional<PoseCovariance>
-      covariance;     ///< of the camera, see CameraCovariance(); may be unknown
+  /// Covariances of the camera in the world and in `odom`, see CameraCovariance(); may be unknown.
+  std::optional<PoseCovariance> world_covariance, odom_covariance;
   std::string image;  ///< PNG or JPEG file; empty: none
 };
 

@@ -12,6 +12,7 @@
 
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/results/calibration_json.h"
+#include "msc_vo/results/covariance_columns.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/named_columns.h"
 
@@ -19,9 +20,6 @@ namespace msc_vo {
 
 namespace {
 
-constexpr const char* kSigmas[] = {"sigma_rx_deg", "sigma_ry_deg", "sigma_rz_deg",
-                                   "sigma_tx",     "sigma_ty",     "sigma_tz"};
-constexpr const char* kAxes[] = {"rx", "ry", "rz", "tx", "ty", "tz"};
 constexpr const char* kPose[] = {"odom_qx", "odom_qy", "odom_qz", "odom_qw",
                                  "odom_x",  "odom_y",  "odom_z"};
 
@@ -39,28 +37,44 @@ RecordedReading ParseReading(const nlohmann::json& json) {
   return reading;
 }
 
-// The covariance of the pose of a row; none if the row states none.
-std::optional<PoseCovariance> ReadCovariance(const NamedColumns& table, size_t row,
-                                             const std::vector<size_t>& sigmas,
-                                             const size_t (&correlations)[6][6]) {
-  PoseCovariance covariance;
-  for (int i = 0; i < 6; ++i) {
-    const double sigma = table.Number(row, sigmas[i]);
-    if (sigma < 0.0) table.Fail(row, std::string(kSigmas[i]) + " is negative");
-    covariance(i, i) = i < 3 ? DegreesToRadians(sigma) : sigma;
-  }
-  for (int i = 0; i < 6; ++i) {
-    for (int j = i + 1; j < 6; ++j) {
-      const double correlation = table.Number(row, correlations[i][j]);
-      if (std::abs(correlation) > 1.0) {
-        table.Fail(row, "a correlation must be within [-1, 1]");
-      }
-      covariance(i, j) = covariance(j, i) = correlation * covariance(i, i) * covariance(j, j);
+// The columns of a covariance.
+class CovarianceColumns {
+ public:
+  CovarianceColumns(const NamedColumns& table, const std::string& prefix)
+      : table_(table), names_(SigmaColumns(prefix)) {
+    for (const std::string& name : names_) sigmas_.push_back(table.Column(name));
+    for (const std::string& name : CorrelationColumns(prefix)) {
+      correlations_.push_back(table.Column(name));
     }
   }
-  covariance.diagonal() = covariance.diagonal().cwiseAbs2().eval();
-  return covariance.trace() > 0.0 ? std::make_optional(covariance) : std::nullopt;
-}
+
+  // None if the row states none.
+  std::optional<PoseCovariance> Read(size_t row) const {
+    PoseCovariance covariance;
+    for (int i = 0; i < 6; ++i) {
+      const double sigma = table_.Number(row, sigmas_[i]);
+      if (sigma < 0.0) table_.Fail(row, names_[i] + " is negative");
+      covariance(i, i) = i < 3 ? DegreesToRadians(sigma) : sigma;
+    }
+    auto column = correlations_.begin();
+    for (int i = 0; i < 6; ++i) {
+      for (int j = i + 1; j < 6; ++j) {
+        const double correlation = table_.Number(row, *column++);
+        if (std::abs(correlation) > 1.0) {
+          table_.Fail(row, "a correlation must be within [-1, 1]");
+        }
+        covariance(i, j) = covariance(j, i) = correlation * covariance(i, i) * covariance(j, j);
+      }
+    }
+    covariance.diagonal() = covariance.diagonal().cwiseAbs2().eval();
+    return covariance.trace() > 0.0 ? std::make_optional(covariance) : std::nullopt;
+  }
+
+ private:
+  const NamedColumns& table_;
+  std::vector<std::string> names_;  // of sigmas_
+  std::vector<size_t> sigmas_, correlations_;
+};
 
 }  // namespace
 
@@ -69,15 +83,9 @@ int64_t Microseconds(double seconds) { return std::llround(1e6 * seconds); }
 std::map<int64_t, RecordedFrame> ReadFramesCsv(const std::string& path) {
   const NamedColumns table(path, kFixes);
   const size_t time = table.Column("time");
-  std::vector<size_t> sigmas, pose;
-  for (const char* name : kSigmas) sigmas.push_back(table.Column(name));
+  std::vector<size_t> pose;
   for (const char* name : kPose) pose.push_back(table.Column(name));
-  size_t correlations[6][6] = {};
-  for (int i = 0; i < 6; ++i) {
-    for (int j = i + 1; j < 6; ++j) {
-      correlations[i][j] = table.Column(std::string("rho_") + kAxes[i] + "_" + kAxes[j]);
-    }
-  }
+  const CovarianceColumns in_world(table, "world_"), in_odometry(table, "odom_");
   std::map<int64_t, RecordedFrame> frames;
   for (size_t row = 0; row < table.num_rows(); ++row) {
     RecordedFrame frame;
@@ -87,7 +95,8 @@ std::map<int64_t, RecordedFrame> ReadFramesCsv(const std::string& path) {
       table.Fail(row, "the quaternion has no unit length");
     }
     frame.odom_from_cam.rotation().normalize();
-    frame.covariance = ReadCovariance(table, row, sigmas, correlations);
+    frame.world_covariance = in_world.Read(row);
+    frame.odometry_covariance = in_odometry.Read(row);
     if (!frames.emplace(Microseconds(table.Number(row, time)), frame).second) {
       table.Fail(row, "its time stands in a row before");
     }

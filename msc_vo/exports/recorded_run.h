@@ -18,8 +18,9 @@ namespace msc_vo {
 struct RecordedFrame {
   /// See FrameResult::cam_from_odometry, of which it is the inverse.
   Rigid3 odom_from_cam;
-  /// Of cam_from_world; none if it is unknown.
-  std::optional<PoseCovariance> covariance;
+  /// See FrameResult::world_covariance and FrameResult::odometry_covariance; none if unknown.
+  std::optional<PoseCovariance> world_covariance;
+  std::optional<PoseCovariance> odometry_covariance;
 };
 
 /// Returns a time stamp in whole microseconds, as result files have them.

@@ -149,6 +149,8 @@ Descriptor Map::CentralDescriptor(const std::vector<Descriptor>& descriptors) {
 
 bool Map::KnowsKeyframe(KeyframeId id) const { return relative_poses_.Find(id) != nullptr; }
 
+std::vector<KeyframeId> Map::KnownKeyframes() const { return Ids(relative_poses_); }
+
 Rigid3 Map::CamFromWorld(KeyframeId id) const {
   // The stored pose to the last bit: a product would normalise its rotation again.
   if (const Keyframe* keyframe = keyframes_.Find(id)) return keyframe->cam_from_world;

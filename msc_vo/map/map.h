@@ -108,6 +108,9 @@ class Map {
   void RemoveKeyframe(KeyframeId id, KeyframeId successor);
   /// Whether the keyframe is in the map or was removed from it.
   bool KnowsKeyframe(KeyframeId id) const;
+  /// All keyframes that are in the map or were removed from it, ascending. The first one began the
+  /// world, unless it was removed before the map was saved.
+  std::vector<KeyframeId> KnownKeyframes() const;
   /// Pose of a keyframe that is in the map or was removed from it.
   Rigid3 CamFromWorld(KeyframeId id) const;
 

@@ -4,6 +4,9 @@
 #include "msc_vo/map/path_covariance.h"
 
 #include <algorithm>
+#include <functional>
+#include <queue>
+#include <utility>
 
 #include <Eigen/Cholesky>
 
@@ -25,30 +28,113 @@ constexpr double kSystematicRotationSigma = DegreesToRadians(0.05);  // radians
 
 }  // namespace
 
+void PathDrift::AddStep(const Rigid3& base_from_cam, const PoseCovariance& covariance,
+                        double length) {
+  steps_ += TransportCovariance(base_from_cam, kStepScale * covariance);
+  length_ += length;
+}
+
+PoseCovariance PathDrift::At(const Rigid3& cam_from_base, double length) const {
+  const double sum = length_ + length;
+  return TransportCovariance(cam_from_base, steps_) +
+         IsotropicCovariance(kSystematicRotationSigma * sum, kSystematicSigma * sum);
+}
+
 PoseCovariance PathCovariance(const Map& map, KeyframeId a, KeyframeId b) {
   const Rigid3 b_from_world = map.CamFromWorld(b);
-  PoseCovariance sum = PoseCovariance::Zero();
   const KeyframeId first = std::min(a, b), last = std::max(a, b);
   Rigid3 before_from_world = map.CamFromWorld(first);
-  double length = 0.0;
+  PathDrift drift;
   for (KeyframeId id = first + 1; id <= last; ++id) {
     const PoseCovariance* step = map.StepCovariance(id);
     if (step == nullptr) continue;
     const Rigid3 step_from_world = map.CamFromWorld(id);
-    length += (step_from_world * before_from_world.Inverse()).translation().norm();
+    const double length = (step_from_world * before_from_world.Inverse()).translation().norm();
     before_from_world = step_from_world;
-    sum += TransportCovariance(b_from_world * step_from_world.Inverse(), kStepScale * *step);
+    drift.AddStep(b_from_world * step_from_world.Inverse(), *step, length);
   }
-  return sum + IsotropicCovariance(kSystematicRotationSigma * length, kSystematicSigma * length);
+  return drift.At(Rigid3());
 }
 
-bool IsPossibleDrift(const Map& map, KeyframeId a, KeyframeId b, const Rigid3& by_path,
-                     const Rigid3& measured, const PoseCovariance& covariance) {
+PathCovariances::PathCovariances(const Map& map, const std::vector<PoseGraphEdge>& loops,
+                                 KeyframeId root) {
+  const Rigid3 root_from_world = map.CamFromWorld(root);
+  for (const KeyframeId id : map.KnownKeyframes()) {
+    nodes_.push_back({id, root_from_world * map.CamFromWorld(id).Inverse(), {}});
+  }
+  FindPaths(EdgesOf(map, loops), Find(root) - nodes_.data());
+}
+
+const PathCovariances::Node* PathCovariances::Find(KeyframeId keyframe) const {
+  const auto place = std::lower_bound(nodes_.begin(), nodes_.end(), keyframe,
+                                      [](const Node& node, KeyframeId id) { return node.id < id; });
+  return place != nodes_.end() && place->id == keyframe ? &*place : nullptr;
+}
+
+std::vector<PathCovariances::Edge> PathCovariances::EdgesOf(
+    const Map& map, const std::vector<PoseGraphEdge>& loops) const {
+  std::vector<Edge> edges;
+  for (size_t i = 1; i < nodes_.size(); ++i) {
+    edges.push_back({i - 1, i, *map.StepCovariance(nodes_[i].id)});
+  }
+  for (const PoseGraphEdge& loop : loops) {
+    const Node *from = Find(loop.from), *to = Find(loop.to);
+    if (from == nullptr || to == nullptr) continue;
+    edges.push_back({static_cast<size_t>(from - nodes_.data()),
+                     static_cast<size_t>(to - nodes_.data()),
+                     CameraCovariance(loop.to_from_from, loop.covariance)});
+  }
+  return edges;
+}
+
+// Dijkstra's algorithm. The systematic part grows with the square of the length, so that the path
+// is not always the best one; the covariance is that of the path.
+void PathCovariances::FindPaths(const std::vector<Edge>& edges, size_t root) {
+  std::vector<std::vector<const Edge*>> edges_of(nodes_.size());
+  for (const Edge& edge : edges) {
+    edges_of[edge.from].push_back(&edge);
+    edges_of[edge.to].push_back(&edge);
+  }
+  using Entry = std::pair<double, size_t>;  // cost, node
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> open;
+  nodes_[root].cost = 0.0;
+  open.push({0.0, root});
+  while (!open.empty()) {
+    const auto [cost, index] = open.top();
+    open.pop();
+    if (cost > nodes_[index].cost) continue;  // found on a better path since
+    for (const Edge* edge : edges_of[index]) {
+      Node& next = nodes_[edge->from == index ? edge->to : edge->from];
+      const Rigid3& root_from_to = nodes_[edge->to].root_from_cam;
+      const double length =
+          (root_from_to.translation() - nodes_[edge->from].root_from_cam.translation()).norm();
+      PathDrift drift = nodes_[index].drift;
+      drift.AddStep(root_from_to, edge->covariance, length);
+      const double next_cost = drift.At(Rigid3()).trace();
+      if (next_cost >= next.cost) continue;
+      next.drift = drift;
+      next.cost = next_cost;
+      open.push({next_cost, static_cast<size_t>(&next - nodes_.data())});
+    }
+  }
+}
+
+PoseCovariance PathCovariances::Of(KeyframeId keyframe, const Rigid3& cam_from_keyframe) const {
+  const Node* node = Find(keyframe);
+  return node->drift.At(cam_from_keyframe * node->root_from_cam.Inverse(),
+                        cam_from_keyframe.translation().norm());
+}
+
+PoseCovariance PathCovariances::OfRoot(KeyframeId keyframe) const {
+  return Find(keyframe)->drift.At(Rigid3());
+}
+
+bool IsPossibleDrift(const Rigid3& by_path, const Rigid3& measured,
+                     const PoseCovariance& covariance) {
   const Rigid3 error = by_path * measured.Inverse();
   Eigen::Matrix<double, 6, 1> tangent;
   tangent << LogSO3(error.rotation()), error.translation();
-  const PoseCovariance sum = covariance + PathCovariance(map, a, b);
-  return tangent.dot(sum.ldlt().solve(tangent)) < kOutlierChiSquare[6];
+  return tangent.dot(covariance.ldlt().solve(tangent)) < kOutlierChiSquare[6];
 }
 
 }  // namespace msc_vo

@@ -3,24 +3,93 @@
 
 #pragma once
 
+#include <limits>
+#include <vector>
+
 #include "msc_vo/geometry/pose_covariance.h"
 #include "msc_vo/geometry/rigid3.h"
 #include "msc_vo/map/map.h"
+#include "msc_vo/map/pose_graph_edge.h"
 
 namespace msc_vo {
 
-/// How uncertain the motion between two keyframes is, as odometry has measured it along the path
-/// between them: each keyframe adds the error of its own pose (Map::SetStepCovariance), and each
-/// metre that of the calibration.
+/// Drift of the odometry along a path, as a covariance: each step adds the error of a tracked pose,
+/// and each metre that of the calibration and of the depth sensor. Steps are summed in a fixed
+/// frame, the base.
+class PathDrift {
+ public:
+  /// Adds a step of `length` metres to a camera. `covariance`: that of its tracked pose, in its own
+  /// frame (CameraCovariance()).
+  void AddStep(const Rigid3& base_from_cam, const PoseCovariance& covariance, double length);
+  /// Adds another independent error of a camera on the path, in its own frame.
+  void AddError(const Rigid3& base_from_cam, const PoseCovariance& covariance) {
+    steps_ += TransportCovariance(base_from_cam, covariance);
+  }
+  /// Covariance of the pose of a camera relative to the begin of the path, in the frame of the
+  /// camera, that is `length` metres behind the last step.
+  PoseCovariance At(const Rigid3& cam_from_base, double length = 0.0) const;
+
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    auto& [steps, path_length] = *this;  // all members, or it does not compile
+    archive(steps, path_length);
+  }
+
+ private:
+  PoseCovariance steps_ = PoseCovariance::Zero();  // in the base frame
+  double length_ = 0.0;                            // metres
+};
+
+/// How uncertain the motion between two keyframes is, as odometry has measured it along the whole
+/// path between them, in the order of keyframes.
 ///
 /// Returns the covariance of the pose of keyframe `b` relative to `a` in the frame of `b`: of the
 /// camera itself, as by CameraCovariance(). Both are or were in the map, in any order.
 PoseCovariance PathCovariance(const Map& map, KeyframeId a, KeyframeId b);
 
-/// Whether odometry can have erred so much between keyframe `a` and a camera near keyframe `b`, by
-/// a chi-square test. `by_path`: pose of the camera relative to `a` by odometry. `measured`: the
-/// same pose by other means. `covariance`: of both apart from the path, in the camera frame.
-bool IsPossibleDrift(const Map& map, KeyframeId a, KeyframeId b, const Rigid3& by_path,
-                     const Rigid3& measured, const PoseCovariance& covariance);
+/// How uncertain the poses of all keyframes are relative to one of them, the root. The steps of
+/// odometry and the closed loops link the keyframes to a graph; an edge of a loop is a step between
+/// the two keyframes that show one place. The covariance of a pose is that along the path through
+/// the graph with the smallest trace (metres and radians, frame of the root). It is not smaller
+/// than the marginal covariance of the graph, to which the other paths add information.
+class PathCovariances {
+ public:
+  /// `loops`: those of keyframes that the map does not know are left out. `root` is or was in the
+  /// map.
+  PathCovariances(const Map& map, const std::vector<PoseGraphEdge>& loops, KeyframeId root);
+
+  /// Covariance of the pose of a keyframe, or of a camera near it, relative to the root, as by
+  /// CameraCovariance(): in the frame of the camera. The keyframe is or was in the map.
+  PoseCovariance Of(KeyframeId keyframe, const Rigid3& cam_from_keyframe = Rigid3()) const;
+  /// Covariance of the pose of the root relative to a keyframe, in the frame of the root.
+  PoseCovariance OfRoot(KeyframeId keyframe) const;
+
+ private:
+  struct Node {
+    KeyframeId id = kNoId;
+    Rigid3 root_from_cam;
+    PathDrift drift;  // base: the root
+    double cost = std::numeric_limits<double>::infinity();
+  };
+  // A step between two nodes, with the covariance of the second one's tracked pose.
+  struct Edge {
+    size_t from = 0;
+    size_t to = 0;
+    PoseCovariance covariance;
+  };
+
+  const Node* Find(KeyframeId keyframe) const;  // nullptr: not known
+  std::vector<Edge> EdgesOf(const Map& map, const std::vector<PoseGraphEdge>& loops) const;
+  void FindPaths(const std::vector<Edge>& edges, size_t root);
+
+  std::vector<Node> nodes_;  // by ascending id
+};
+
+/// Whether two poses of a camera, `by_path` by odometry and `measured` by other means, differ by no
+/// more than their errors, by a chi-square test. `covariance`: the sum of that of the path and of
+/// all others, in the camera frame.
+bool IsPossibleDrift(const Rigid3& by_path, const Rigid3& measured,
+                     const PoseCovariance& covariance);
 
 }  // namespace msc_vo

@@ -14,6 +14,7 @@
 #include "msc_vo/map/map.h"
 #include "msc_vo/map/noise_scale.h"
 #include "msc_vo/map/plane_landmark.h"
+#include "msc_vo/map/pose_graph_edge.h"
 
 namespace msc_vo {
 
@@ -35,7 +36,9 @@ struct MapSnapshot {
   MapPlanes planes;
   int world = 0;  ///< number of the segment that began the world of the map
   KeyframeId newest_keyframe = kNoId;
-  int num_loops = 0;          ///< closed in the run so far
+  int num_loops = 0;  ///< closed in the run so far
+  /// LoopCloser::edges(): those of closed loops, earlier sessions and other maps included.
+  std::vector<PoseGraphEdge> loops;
   NoiseScale noise_scale;     ///< self-calibrated
   double readout_time = 0.0;  ///< seconds, of the rolling-shutter compensation of its keyframes
   /// Calibration of its keyframes, which frames must have that are tracked in it; null: unknown.
@@ -57,9 +60,9 @@ struct MapSnapshot {
 
   template <typename Archive>
   void Serialize(Archive& archive) {
-    archive.Fields(*this, map, planes, world, newest_keyframe, num_loops, noise_scale, readout_time,
-                   intrinsics, axes, needs_axes, calibration_is_settled, calibration_is_doubted,
-                   inactive_maps, extra_blocks);
+    archive.Fields(*this, map, planes, world, newest_keyframe, num_loops, loops, noise_scale,
+                   readout_time, intrinsics, axes, needs_axes, calibration_is_settled,
+                   calibration_is_doubted, inactive_maps, extra_blocks);
   }
 };
 using MapSnapshotPtr = std::shared_ptr<const MapSnapshot>;

@@ -28,6 +28,17 @@ PoseCovariance EdgeCovariance() { return IsotropicCovariance(kEdgeRotationSigma,
 
 }  // namespace
 
+void LoopCloser::AddKeyframe(const Map& map, KeyframeId keyframe, KeyframeId reference) {
+  constexpr KeyframeId kInterval = 5;  // bounds the number of edges
+  if (reference == kNoId || loop_edges_.empty()) return;
+  const KeyframeId last = loop_edges_.back().to;
+  if (reference >= last || keyframe < last + kInterval || !map.KnowsKeyframe(last)) return;
+  const Rigid3 to_from_from = map.CamFromWorld(keyframe) * map.CamFromWorld(reference).Inverse();
+  const PoseCovariance camera = *map.StepCovariance(keyframe) + EdgeCovariance();
+  loop_edges_.push_back(
+      {reference, keyframe, to_from_from, CovarianceOfCamera(to_from_from, camera)});
+}
+
 void LoopCloser::AddRevisit(const KeyframeRevisit& visit) {
   const KeyframeId oldest = visit.keyframe - kMaxAge;
   visits_.erase(
@@ -60,8 +71,9 @@ PoseGraphEdge LoopCloser::EdgeOf(const Map& map, const KeyframeRevisit& visit) c
 bool LoopCloser::IsPossible(const Map& map, const KeyframeRevisit& visit) const {
   const PoseGraphEdge edge = EdgeOf(map, visit);
   const Rigid3 by_path = map.CamFromWorld(edge.to) * map.CamFromWorld(edge.from).Inverse();
-  return IsPossibleDrift(map, edge.from, edge.to, by_path, edge.to_from_from,
-                         CameraCovariance(edge.to_from_from, edge.covariance));
+  return IsPossibleDrift(by_path, edge.to_from_from,
+                         PathCovariances(map, loop_edges_, edge.to).OfRoot(edge.from) +
+                             CameraCovariance(edge.to_from_from, edge.covariance));
 }
 
 PoseGraph LoopCloser::MakeGraph(const Map& map) const {

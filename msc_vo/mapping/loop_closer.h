@@ -33,6 +33,11 @@ struct LoopClosure {
 /// accuracy, a false one the map.
 class LoopCloser {
  public:
+  /// Adds the newest keyframe, which was tracked relative to keyframe `reference`. If that is older
+  /// than the last edge, the camera is in a part of the map that closed loops have made consistent:
+  /// every fifth such keyframe gets an edge, so that the path to it does not lead through all
+  /// rounds.
+  void AddKeyframe(const Map& map, KeyframeId keyframe, KeyframeId reference);
   /// Adds the newest keyframe, which shows an older part of the map.
   void AddRevisit(const KeyframeRevisit& visit);
 
@@ -40,7 +45,7 @@ class LoopCloser {
   void AddEdges(const std::vector<PoseGraphEdge>& edges) {
     loop_edges_.insert(loop_edges_.end(), edges.begin(), edges.end());
   }
-  /// The measured poses of all closed loops.
+  /// The measured poses of all closed loops, and of keyframes in known parts of the map.
   const std::vector<PoseGraphEdge>& edges() const { return loop_edges_; }
 
   /// Closes the loop of the last revisit if it is accepted: corrects the poses of all keyframes and
@@ -72,7 +77,7 @@ class LoopCloser {
   PoseGraph MakeGraph(const Map& map) const;
 
   std::vector<KeyframeRevisit> visits_;
-  std::vector<PoseGraphEdge> loop_edges_;  // of the closed loops
+  std::vector<PoseGraphEdge> loop_edges_;  // beside those along the path
   int num_closed_ = 0;
   int num_refused_ = 0;
 };

@@ -118,6 +118,7 @@ void Mapper::Create(KeyframeTask* task) {
     inserter_.Insert(task->packet_, std::exchange(task->frame_, nullptr), &atlas_, &summary);
     care_.Renew(summary.keyframe, &atlas_.current().map);
     SubMap& submap = atlas_.current();
+    loops_.AddKeyframe(submap.map, summary.keyframe, task->packet_.reference);
     submap.planes.AddKeyframe(submap.map, summary.keyframe, task->packet_.covariance);
   });
 }
@@ -218,6 +219,7 @@ MapSnapshotPtr Mapper::Snapshot() {
   snapshot->inactive_maps = atlas_.inactive_maps();
   snapshot->newest_keyframe = inserter_.newest();
   snapshot->num_loops = loops_.num_closed();
+  snapshot->loops = loops_.edges();
   snapshot->noise_scale = submap.noise.scale();
   calibration_.Describe(&*snapshot);
   snapshot->axes = submap.axes.Estimate();

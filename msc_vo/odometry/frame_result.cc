@@ -31,6 +31,15 @@ FrameResult MakeFrameResult(const TrackedFrame& tracked, int segment, int world)
   return result;
 }
 
+FrameResult RepeatPose(const FrameResult* before) {
+  FrameResult result;
+  result.world = before != nullptr ? before->world : kNoSegment;
+  if (before == nullptr) return result;
+  result.cam_from_world = before->cam_from_world;
+  result.cam_from_odometry = before->cam_from_odometry;
+  return result;
+}
+
 void Discard(const FrameResult& before, FrameResult* result) {
   // A frame without a cause whose image was lost has failed before its image was measured.
   const bool is_measured =
@@ -43,6 +52,8 @@ void Discard(const FrameResult& before, FrameResult* result) {
   result->by_pose_factors = false;
   result->is_keyframe = false;
   result->covariance.reset();
+  result->world_covariance.reset();
+  result->odometry_covariance.reset();
   if (is_measured) result->cause = FindLossCause(*result, false);
 }
 

@@ -102,10 +102,20 @@ struct FrameResult {
   int num_inlier_points = 0;  ///< matched with the map and consistent with the pose
   int num_inlier_lines = 0;
   int num_dynamic = 0;  ///< matches on dynamic objects
-  /// Covariance of `cam_from_world` in the tangent of Rigid3Manifold: rotation vector in the camera
-  /// frame (radians), then translation (metres). std::nullopt if neither the image nor pose factors
-  /// determined the pose, as in the frame that begins a world: its pose is a definition.
+  /// Covariance of `cam_from_world` relative to the map nearby, without the drift of the map, in
+  /// the tangent of Rigid3Manifold: rotation vector in the camera frame (radians), then translation
+  /// (metres). std::nullopt if neither the image nor pose factors determined the pose, as in the
+  /// frame that begins a world: its pose is a definition.
   std::optional<PoseCovariance> covariance;
+  /// Covariance of `cam_from_world` relative to the origin of the world, its first keyframe: that
+  /// of the map nearby, and the drift of the map between both, which closed loops reduce. Tangent
+  /// and std::nullopt as `covariance`.
+  std::optional<PoseCovariance> world_covariance;
+  /// Covariance of `cam_from_odometry`: the drift of the whole path, which neither a correction of
+  /// the map nor a known place reduces, and motion that was missed in gaps. Tangent (with
+  /// `cam_from_odometry`) and std::nullopt as `covariance`. Its errors and those of
+  /// `cam_from_world` are correlated.
+  std::optional<PoseCovariance> odometry_covariance;
   /// Why the pose is weak, or was not estimated from the image; std::nullopt: the frame is tracked,
   /// or has no image.
   std::optional<LossCause> cause;
@@ -117,7 +127,7 @@ struct FrameResult {
     archive.Fields(*this, id, timestamp, status, segment, world, world_changed, cam_from_world,
                    cam_from_odometry, by_pose_factors, is_keyframe, num_points, num_lines,
                    num_with_depth, num_inlier_points, num_inlier_lines, num_dynamic, covariance,
-                   cause, image, times);
+                   world_covariance, odometry_covariance, cause, image, times);
   }
 
   /// The pose of the odometry frame in the world ("map from odom"): it takes all jumps.
@@ -127,6 +137,9 @@ struct FrameResult {
 /// The result of a tracked frame in a segment and a world, without what depends on its image or on
 /// other frames, and without times of other stages than tracking.
 FrameResult MakeFrameResult(const TrackedFrame& tracked, int segment, int world);
+
+/// A frame whose image is not tracked, with the poses of the frame `before` it; nullptr: none.
+FrameResult RepeatPose(const FrameResult* before);
 
 /// Makes `result` a frame of a segment that is discarded: if it has an image, it is lost since
 /// `before`.

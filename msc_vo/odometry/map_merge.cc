@@ -102,6 +102,7 @@ class MapMerger {
     snapshot.world = atlas_.current().id;
     snapshot.inactive_maps = atlas_.inactive_maps();
     snapshot.newest_keyframe = newest;
+    snapshot.loops = loops_.edges();
     snapshot.noise_scale = atlas_.current().noise.scale();
     return snapshot;
   }

@@ -27,6 +27,7 @@
 #include "msc_vo/odometry/pose_refiner.h"
 #include "msc_vo/odometry/session_log.h"
 #include "msc_vo/odometry/snapshot_schedule.h"
+#include "msc_vo/odometry/world_covariance.h"
 #include "msc_vo/timing/stopwatch.h"
 
 namespace msc_vo {
@@ -90,6 +91,7 @@ struct Odometry::State {
   std::vector<FrameResult> results;
   std::vector<ReferencedPose> relative_poses;  // one per result
   OdometryPose odometry_pose;
+  WorldCovariance world_covariance;
   PoseRefiner refiner;
   SegmentLog segments;
   LoopLog loops;
@@ -154,6 +156,7 @@ void Odometry::State::AddResult(const TrackedFrame& tracked, int world, const Rg
   FrameResult result = MakeFrameResult(tracked, segments.current(), world);
   odometry_pose.Add(tracked);
   result.cam_from_odometry = odometry_pose.cam_from_odometry();
+  result.odometry_covariance = odometry_pose.covariance();
   result.image = MeasureImage(image);
   result.cause = FindLossCause(result, tracked.is_implausible);
   times.matching = result.times.matching;
@@ -280,9 +283,9 @@ void Odometry::State::ProcessImage(const RgbdImage& given, FirstError* error) {
   RefineOlderPoses(tracked, *map);
   packets.Add(tracked);
   calibration.KeepImage(tracked, image, *map);
-  const bool is_keyframe = tracked.keyframe.is_due();
   const MapSnapshotPtr pose_map =
-      is_keyframe ? SubmitKeyframe(tracked, image, extracted, map, error) : map;
+      tracked.keyframe.is_due() ? SubmitKeyframe(tracked, image, extracted, map, error) : map;
+  world_covariance.Set(tracked, pose_map, &results.back());
   MarkWorldChange(old_world, start, *pose_map);
   if (!tracking_observer) return;
   const FrameResult result = results.back();
@@ -303,23 +306,14 @@ FrameResult Odometry::Process(const RgbdImage& image) {
   return run.results.back();
 }
 
-// A frame whose image is not tracked: it has the pose of the one before.
 void Odometry::State::AddUntracked(int64_t id, double timestamp, TrackingStatus status) {
-  FrameResult result;
-  ReferencedPose relative_pose;
-  result.world = kNoSegment;
-  if (!results.empty()) {
-    result.world = results.back().world;
-    result.cam_from_world = results.back().cam_from_world;
-    relative_pose = relative_poses.back();
-  }
-  result.cam_from_odometry = odometry_pose.cam_from_odometry();
+  FrameResult result = RepeatPose(results.empty() ? nullptr : &results.back());
   result.id = id;
   result.timestamp = timestamp;
   result.status = status;
   result.segment = segments.current();
+  relative_poses.push_back(results.empty() ? ReferencedPose() : relative_poses.back());
   results.push_back(result);
-  relative_poses.push_back(relative_pose);
   log.LogFrame(result, false);
 }
 
@@ -384,6 +378,7 @@ OdometryResult Odometry::Finish() {
   result.loops = state_->loops.loops();
   FillGaps(result.segments, &result.frames);
   state_->segments.PropagateCovariances(state_->results, &result.frames);
+  SetWorldCovariances(state_->mapper, poses, &result.frames);
   result.map_world = LargestWorld(result.segments);
   AddMap(state_->mapper, state_->segments.SubMapOf(result.map_world), &result);
   AddEarlierSessions(state_->mapper.atlas(), state_->sessions.earlier(), &result);
@@ -393,7 +388,8 @@ OdometryResult Odometry::Finish() {
   result.num_late_maps = state_->schedule.num_late();
   result.extra_blocks = state_->mapper.extra_blocks();
   result.last_window = state_->last_window;
-  state_->log.LogFinish(result.noise_scale, result.readout_time, state_->last() + 1);
+  state_->log.LogFinish(result.noise_scale, result.readout_time,
+                        static_cast<int>(result.frames.size()));
   return result;
 }
 

@@ -4,29 +4,63 @@
 #include "msc_vo/odometry/odometry_pose.h"
 
 #include "msc_vo/geometry/camera_velocity.h"
+#include "msc_vo/geometry/so3.h"
+#include "msc_vo/tracking/motion_model.h"
 #include "msc_vo/tracking/tracked_frame.h"
 
 namespace msc_vo {
 
 void OdometryPose::Add(const TrackedFrame& tracked) {
   const double timestamp = tracked.frame->timestamp;
-  const bool is_estimated = IsEstimated(tracked.status);
-  if (!tracked.cam_from_last) {
-    // The frame begins a map, or there is none: the motion is unknown.
-  } else if (is_estimated && in_gap_) {
-    const CameraVelocity velocity =
-        CameraVelocity::Of(*tracked.cam_from_last, timestamp - base_timestamp_);
-    cam_from_odometry_ = velocity.Over(timestamp - timestamp_) * cam_from_odometry_;
-  } else {
-    cam_from_odometry_ = *tracked.cam_from_last * base_from_odometry_;
-    in_gap_ = !is_estimated;
-  }
+  AddMotion(tracked);
+  AddCovariance(tracked);
   timestamp_ = timestamp;
-  if (is_estimated || tracked.keyframe.is_due()) {
+  if (IsEstimated(tracked.status) || tracked.keyframe.is_due()) {
     base_from_odometry_ = cam_from_odometry_;
     base_timestamp_ = timestamp;
     in_gap_ = false;
+    has_begun_ = true;
   }
+}
+
+void OdometryPose::AddMotion(const TrackedFrame& tracked) {
+  const double timestamp = tracked.frame->timestamp;
+  if (!tracked.cam_from_last) {
+    // There is no map, or the frame begins one: the motion is unknown.
+    if (!has_begun_ || !tracked.keyframe.is_due()) return;
+    drift_.AddError(cam_from_odometry_.Inverse(), CovarianceOfRest(timestamp - base_timestamp_));
+    return;
+  }
+  const Rigid3 measured = *tracked.cam_from_last * base_from_odometry_;
+  if (!IsEstimated(tracked.status) || !in_gap_) {
+    cam_from_odometry_ = measured;
+    in_gap_ = !IsEstimated(tracked.status);
+    return;
+  }
+  const CameraVelocity velocity =
+      CameraVelocity::Of(*tracked.cam_from_last, timestamp - base_timestamp_);
+  cam_from_odometry_ = velocity.Over(timestamp - timestamp_) * cam_from_odometry_;
+  // The motion that is missing is a known error of the pose.
+  const Rigid3 missing = cam_from_odometry_ * measured.Inverse();
+  Eigen::Matrix<double, 6, 1> error;
+  error << LogSO3(missing.rotation()), missing.translation();
+  drift_.AddError(cam_from_odometry_.Inverse(), error * error.transpose());
+}
+
+void OdometryPose::AddCovariance(const TrackedFrame& tracked) {
+  const Rigid3 odometry_from_cam = cam_from_odometry_.Inverse();
+  const double length =
+      (odometry_from_cam.translation() - odometry_from_keyframe_.translation()).norm();
+  PoseCovariance own = PoseCovariance::Zero();
+  covariance_.reset();
+  if (tracked.pose.usable) {
+    own = CameraCovariance(tracked.cam_from_world, tracked.pose.covariance);
+    covariance_ =
+        CovarianceOfCamera(cam_from_odometry_, drift_.At(cam_from_odometry_, length) + own);
+  }
+  if (!tracked.keyframe.is_due()) return;
+  drift_.AddStep(odometry_from_cam, own, length);
+  odometry_from_keyframe_ = odometry_from_cam;
 }
 
 }  // namespace msc_vo

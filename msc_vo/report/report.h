@@ -25,6 +25,12 @@ enum class ReportStatus { kTracked, kWeak, kDropped, kUnreadable, kPredicted, kL
 /// ReportFrame::submap of a frame without a pose.
 constexpr int kNoSubMapNumber = -1;
 
+/// Largest standard deviations of the camera in its own frame.
+struct CameraSigma {
+  double rotation_deg = 0.0;
+  double position = 0.0;  ///< metres
+};
+
 /// One frame of the run.
 struct ReportFrame {
   double timestamp = 0.0;  ///< seconds
@@ -35,10 +41,13 @@ struct ReportFrame {
   int submap = 0;
   Rigid3 world_from_cam;                 ///< metres; aligned to the ground truth, if there is one
   std::optional<double> position_error;  ///< metres; nullopt without ground truth at this time
-  /// Largest standard deviation of the pose, degrees and metres; nullopt without an estimate.
+  /// Largest standard deviation of the pose relative to the map nearby, degrees and metres; nullopt
+  /// without an estimate.
   std::optional<double> rotation_sigma_deg;
   std::optional<double> translation_sigma;
-  int num_points = 0;  ///< features in the image
+  std::optional<CameraSigma> world_sigma;     ///< relative to the origin of the world
+  std::optional<CameraSigma> odometry_sigma;  ///< of the pose by odometry alone
+  int num_points = 0;                         ///< features in the image
   int num_lines = 0;
   int num_inlier_points = 0;  ///< matches with map points that agree with the pose
   int num_inlier_lines = 0;

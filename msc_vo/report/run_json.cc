@@ -81,6 +81,10 @@ Json FramesToJson(const std::vector<ReportFrame>& frames, int first, double star
     }
     sigma.insert(sigma.end(),
                  {ToFloat(frame.rotation_sigma_deg), ToFloat(frame.translation_sigma)});
+    for (const auto& camera : {frame.world_sigma, frame.odometry_sigma}) {
+      sigma.push_back(camera ? static_cast<float>(camera->rotation_deg) : kNone);
+      sigma.push_back(camera ? static_cast<float>(camera->position) : kNone);
+    }
     error.push_back(ToFloat(frame.position_error));
     for (const double ms : frame.stage_ms) stage_ms.push_back(static_cast<float>(ms));
     tracking_ms.push_back(static_cast<float>(frame.tracking_ms));

@@ -4,6 +4,7 @@
 #include "msc_vo/results/report_frame.h"
 
 #include <cmath>
+#include <optional>
 
 #include "msc_vo/geometry/angles.h"
 
@@ -29,6 +30,14 @@ ReportStatus ToReportStatus(TrackingStatus status) {
   return ReportStatus::kLost;
 }
 
+std::optional<CameraSigma> SigmaOf(const Rigid3& pose,
+                                   const std::optional<PoseCovariance>& covariance) {
+  if (!covariance) return std::nullopt;
+  const Eigen::Matrix<double, 6, 1> variance = CameraCovariance(pose, *covariance).diagonal();
+  return CameraSigma{RadiansToDegrees(std::sqrt(variance.head<3>().maxCoeff())),
+                     std::sqrt(variance.tail<3>().maxCoeff())};
+}
+
 }  // namespace
 
 ReportFrame MakeReportFrame(const FrameResult& frame) {
@@ -43,6 +52,8 @@ ReportFrame MakeReportFrame(const FrameResult& frame) {
     row.rotation_sigma_deg = RadiansToDegrees(std::sqrt(variance.head<3>().maxCoeff()));
     row.translation_sigma = std::sqrt(variance.tail<3>().maxCoeff());
   }
+  row.world_sigma = SigmaOf(frame.cam_from_world, frame.world_covariance);
+  row.odometry_sigma = SigmaOf(frame.cam_from_odometry, frame.odometry_covariance);
   row.num_points = frame.num_points;
   row.num_lines = frame.num_lines;
   row.num_inlier_points = frame.num_inlier_points;

@@ -3,7 +3,6 @@
 
 #include "msc_vo/results/result_files.h"
 
-#include <cmath>
 #include <cstdint>
 #include <exception>
 #include <filesystem>
@@ -14,8 +13,8 @@
 #include <utility>
 
 #include "msc_vo/datasets/trajectory.h"
-#include "msc_vo/geometry/angles.h"
 #include "msc_vo/logging/logger.h"
+#include "msc_vo/results/covariance_columns.h"
 #include "msc_vo/results/ply_file.h"
 #include "msc_vo/results/run_report.h"
 #include "msc_vo/results/summary_json.h"
@@ -79,34 +78,39 @@ std::string FormatFrameRow(const FrameResult& frame) {
                                 frame.num_inlier_points, frame.num_inlier_lines);
   text += FormatText(",%.3f,%.3f,%.3f,%.3f,%.3f,%.3f,%.3f,%.3f", ms.points, ms.lines, ms.depth,
                      ms.waiting, ms.matching, ms.pose, ms.tracking, ms.mapping);
-  const PoseCovariance covariance = frame.covariance.value_or(PoseCovariance::Zero());
-  for (int i = 0; i < 6; ++i) {
-    const double sigma = std::sqrt(covariance(i, i));
-    text += FormatText(",%.9g", i < 3 ? RadiansToDegrees(sigma) : sigma);
-  }
+  text += FormatSigmas(frame.covariance);
   text += FormatText(",%d,%d", frame.num_dynamic, frame.segment);
-  for (int i = 0; i < 6; ++i) {
-    for (int j = i + 1; j < 6; ++j) {
-      const double scale = std::sqrt(covariance(i, i) * covariance(j, j));
-      text += FormatText(",%.9g", scale > 0.0 ? covariance(i, j) / scale : 0.0);
-    }
-  }
+  text += FormatCorrelations(frame.covariance);
   const Rigid3 odom_from_cam = frame.cam_from_odometry.Inverse();
   const Eigen::Vector3d t = odom_from_cam.translation().array() + 0.0;  // no -0
   for (const double x : t) text += FormatText(",%.9g", x);
   const Eigen::Vector4d q = odom_from_cam.rotation().coeffs().array() + 0.0;
   for (const double x : q) text += FormatText(",%.9g", x);
+  for (const auto& covariance : {frame.world_covariance, frame.odometry_covariance}) {
+    text += FormatSigmas(covariance) + FormatCorrelations(covariance);
+  }
   return text + "\n";
 }
 
 std::string FormatFramesCsv(const std::vector<FrameResult>& frames) {
-  std::string text =
-      "time,status,keyframe,points,lines,inlier_points,inlier_lines,points_ms,lines_ms,depth_ms,"
-      "waiting_ms,matching_ms,pose_ms,tracking_ms,mapping_ms,sigma_rx_deg,sigma_ry_deg,"
-      "sigma_rz_deg,sigma_tx,sigma_ty,sigma_tz,dynamic,segment,"
-      "rho_rx_ry,rho_rx_rz,rho_rx_tx,rho_rx_ty,rho_rx_tz,rho_ry_rz,rho_ry_tx,rho_ry_ty,rho_ry_tz,"
-      "rho_rz_tx,rho_rz_ty,rho_rz_tz,rho_tx_ty,rho_tx_tz,rho_ty_tz,"
-      "odom_x,odom_y,odom_z,odom_qx,odom_qy,odom_qz,odom_qw\n";
+  std::vector<std::string> names = {"time",     "status",        "keyframe",     "points",
+                                    "lines",    "inlier_points", "inlier_lines", "points_ms",
+                                    "lines_ms", "depth_ms",      "waiting_ms",   "matching_ms",
+                                    "pose_ms",  "tracking_ms",   "mapping_ms"};
+  const auto add = [&names](const std::vector<std::string>& columns) {
+    names.insert(names.end(), columns.begin(), columns.end());
+  };
+  add(SigmaColumns(""));
+  add({"dynamic", "segment"});
+  add(CorrelationColumns(""));
+  add({"odom_x", "odom_y", "odom_z", "odom_qx", "odom_qy", "odom_qz", "odom_qw"});
+  for (const char* prefix : {"world_", "odom_"}) {
+    add(SigmaColumns(prefix));
+    add(CorrelationColumns(prefix));
+  }
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ",") + name;
+  text += "\n";
   for (const FrameResult& frame : frames) text += FormatFrameRow(frame);
   return text;
 }

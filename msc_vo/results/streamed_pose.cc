@@ -23,12 +23,9 @@ bool HasPose(const FrameResult& frame) {
          (IsEstimated(frame.status) || frame.status == TrackingStatus::kPredicted);
 }
 
-Sigmas SigmasOf(const FrameResult& frame) {
-  if (!HasPose(frame) || !frame.covariance) {
-    return Sigmas::Constant(std::numeric_limits<double>::quiet_NaN());
-  }
-  const Sigmas sigmas =
-      CameraCovariance(frame.cam_from_world, *frame.covariance).diagonal().cwiseSqrt();
+// Of the camera itself, in its own frame.
+Sigmas SigmasOf(const Rigid3& pose, const PoseCovariance& covariance) {
+  const Sigmas sigmas = CameraCovariance(pose, covariance).diagonal().cwiseSqrt();
   return (Sigmas() << sigmas.tail<3>(), sigmas.head<3>()).finished();
 }
 
@@ -58,6 +55,24 @@ Json ToJson(const WorldChange& change) {
   return json;
 }
 
+void AddSigmas(const std::string& prefix, const Rigid3& pose,
+               const std::optional<PoseCovariance>& covariance, Json* json) {
+  if (!covariance) return;
+  const Sigmas sigmas = SigmasOf(pose, *covariance);
+  (*json)[prefix + "sigma_position"] = ToJson(sigmas.head<3>());
+  (*json)[prefix + "sigma_rotation"] = ToJson(sigmas.tail<3>());
+}
+
+// The camera in a frame, given the inverse pose and its covariances.
+Json PoseToJson(const Rigid3& cam_from_frame, const std::optional<PoseCovariance>& covariance) {
+  const Rigid3 pose = cam_from_frame.Inverse();
+  Json json;
+  json["position"] = ToJson(Position(pose));
+  json["orientation"] = ToJson(Orientation(pose));
+  AddSigmas("", cam_from_frame, covariance, &json);
+  return json;
+}
+
 std::string FormatJson(const FrameResult& frame) {
   Json json;
   json["frame"] = frame.id;
@@ -65,15 +80,10 @@ std::string FormatJson(const FrameResult& frame) {
   json["status"] = ToString(frame.status);
   json["keyframe"] = frame.is_keyframe;
   if (HasPose(frame)) {
-    const Rigid3 pose = frame.cam_from_world.Inverse();
     json["world"] = frame.world;
-    json["position"] = ToJson(Position(pose));
-    json["orientation"] = ToJson(Orientation(pose));
-    if (frame.covariance) {
-      const Sigmas sigmas = SigmasOf(frame);
-      json["sigma_position"] = ToJson(sigmas.head<3>());
-      json["sigma_rotation"] = ToJson(sigmas.tail<3>());
-    }
+    json.update(PoseToJson(frame.cam_from_world, frame.covariance));
+    AddSigmas("world_", frame.cam_from_world, frame.world_covariance, &json);
+    json["odometry"] = PoseToJson(frame.cam_from_odometry, frame.odometry_covariance);
   }
   if (frame.world_changed) json["world_changed"] = ToJson(*frame.world_changed);
   return json.dump() + "\n";
@@ -91,7 +101,10 @@ std::string FormatStreamedPose(const FrameResult& frame, StreamedPoseForm form) 
     pose << Position(world_from_cam), Orientation(world_from_cam);
   }
   for (const double value : pose) line += FormatText(" %.9g", value);
-  for (const double sigma : SigmasOf(frame)) line += FormatText(" %.3g", sigma);
+  const Sigmas sigmas = HasPose(frame) && frame.covariance
+                            ? SigmasOf(frame.cam_from_world, *frame.covariance)
+                            : Sigmas::Constant(std::numeric_limits<double>::quiet_NaN());
+  for (const double sigma : sigmas) line += FormatText(" %.3g", sigma);
   return line + " " + ToString(frame.status) + FormatText(" %d\n", frame.world);
 }
 

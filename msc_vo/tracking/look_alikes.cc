@@ -81,14 +81,12 @@ PlaceStatus ClassifyPlace(const PlaceEvidence& place, const PlaceEvidence& found
 
 }  // namespace
 
-void LookAlikes::Add(const TrackedFrame& tracked, const Map& own, const Map& map,
+void LookAlikes::Add(const TrackedFrame& tracked, const MapSnapshot& snapshot, const Map& map,
                      const Revisit& found) {
-  if (!own.KnowsKeyframe(tracked.reference)) return;
-  const auto is_same = [&](const Alignment& alignment) {
-    return IsSame(alignment, tracked, own, map, found);
-  };
+  if (!snapshot.map.KnowsKeyframe(tracked.reference)) return;
   if (static_cast<int>(alignments_.size()) == kMaxAlignments) return;
-  if (std::any_of(alignments_.begin(), alignments_.end(), is_same)) return;
+  const std::vector<bool> same = AreSame(tracked, snapshot, map, found);
+  if (std::find(same.begin(), same.end(), true) != same.end()) return;
   alignments_.push_back({tracked.reference, found.reference,
                          found.cam_from_reference.Inverse() * tracked.cam_from_reference});
 }
@@ -102,10 +100,11 @@ bool LookAlikes::AreExcluded(const TrackerOptions& options, const TrackedFrame& 
   const auto evidence_at = [&](const Rigid3& cam_from_world) {
     return EvidenceAt(options, *tracked.frame, map, snapshot.noise_scale, cam_from_world);
   };
+  const std::vector<bool> same = AreSame(tracked, snapshot, map, found);
   std::optional<PlaceEvidence> at_found;
-  for (const Alignment& alignment : alignments_) {
-    if (!map.KnowsKeyframe(alignment.other)) continue;
-    if (IsSame(alignment, tracked, snapshot.map, map, found)) continue;
+  for (size_t i = 0; i < alignments_.size(); ++i) {
+    const Alignment& alignment = alignments_[i];
+    if (same[i] || !map.KnowsKeyframe(alignment.other)) continue;
     if (!at_found) at_found = evidence_at(found_from_world);
     const Rigid3 aligned_from_world = PoseBy(alignment, tracked, snapshot.map, map);
     const PlaceStatus status = ClassifyPlace(evidence_at(aligned_from_world), *at_found);
@@ -130,18 +129,26 @@ void LookAlikes::Update(const MapSnapshot& snapshot) {
                     alignments_.end());
 }
 
-bool LookAlikes::IsSame(const Alignment& alignment, const TrackedFrame& tracked, const Map& own,
-                        const Map& map, const Revisit& found) {
-  if (!map.KnowsKeyframe(alignment.other)) return false;
+std::vector<bool> LookAlikes::AreSame(const TrackedFrame& tracked, const MapSnapshot& snapshot,
+                                      const Map& map, const Revisit& found) const {
+  std::vector<bool> same(alignments_.size(), false);
+  if (alignments_.empty()) return same;
   const Rigid3 found_from_world = found.cam_from_reference * map.CamFromWorld(found.reference);
-  const Rigid3 aligned_from_world = PoseBy(alignment, tracked, own, map);
-  const Rigid3 world_from_other = map.CamFromWorld(alignment.other).Inverse();
-  const PoseCovariance covariance =
-      2.0 * ViewCovariance() + CameraCovariance(found_from_world, found.covariance) +
-      TransportCovariance(tracked.cam_from_reference,
-                          PathCovariance(own, alignment.own, tracked.reference));
-  return IsPossibleDrift(map, alignment.other, found.reference, found_from_world * world_from_other,
-                         aligned_from_world * world_from_other, covariance);
+  const PathCovariances own_paths(snapshot.map, snapshot.loops, tracked.reference);
+  const PathCovariances paths(map, snapshot.loops, found.reference);
+  for (size_t i = 0; i < alignments_.size(); ++i) {
+    const Alignment& alignment = alignments_[i];
+    if (!map.KnowsKeyframe(alignment.other)) continue;
+    const Rigid3 aligned_from_world = PoseBy(alignment, tracked, snapshot.map, map);
+    const Rigid3 world_from_other = map.CamFromWorld(alignment.other).Inverse();
+    const PoseCovariance covariance =
+        2.0 * ViewCovariance() + CameraCovariance(found_from_world, found.covariance) +
+        TransportCovariance(tracked.cam_from_reference, own_paths.OfRoot(alignment.own)) +
+        paths.OfRoot(alignment.other);
+    same[i] = IsPossibleDrift(found_from_world * world_from_other,
+                              aligned_from_world * world_from_other, covariance);
+  }
+  return same;
 }
 
 Rigid3 LookAlikes::PoseBy(const Alignment& alignment, const TrackedFrame& tracked, const Map& own,

@@ -16,9 +16,10 @@ namespace msc_vo {
 /// only, since the map may lack its look-alike.
 class LookAlikes {
  public:
-  /// Adds the alignment by a frame that was found in `map`, unless it is known. `own`: the map that
+  /// Adds the alignment by a frame that was found in `map`, unless it is known. `snapshot`: what
   /// the frame is tracked in.
-  void Add(const TrackedFrame& tracked, const Map& own, const Map& map, const Revisit& found);
+  void Add(const TrackedFrame& tracked, const MapSnapshot& snapshot, const Map& map,
+           const Revisit& found);
 
   /// Whether the frame excludes all alignments with `map` except that of `found`. It excludes an
   /// alignment if the map has at least half as many visible landmarks at the pose by the alignment
@@ -50,9 +51,9 @@ class LookAlikes {
     }
   };
 
-  // Whether an alignment places the frame where it was found, up to drift.
-  static bool IsSame(const Alignment& alignment, const TrackedFrame& tracked, const Map& own,
-                     const Map& map, const Revisit& found);
+  // For each alignment, whether it places the frame where it was found, up to drift.
+  std::vector<bool> AreSame(const TrackedFrame& tracked, const MapSnapshot& snapshot,
+                            const Map& map, const Revisit& found) const;
 
   // The pose of the frame in the world of `map`.
   static Rigid3 PoseBy(const Alignment& alignment, const TrackedFrame& tracked, const Map& own,

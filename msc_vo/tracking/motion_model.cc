@@ -54,4 +54,9 @@ std::optional<CameraVelocity> MotionModel::LastVelocity(double timestamp,
                         velocity_.linear + weight * (after->linear - velocity_.linear)};
 }
 
+PoseCovariance CovarianceOfRest(double seconds) {
+  constexpr double kSpeedSigma = 0.5, kTurnSigma = 1.0;  // m/s, rad/s
+  return IsotropicCovariance(kTurnSigma * seconds, kSpeedSigma * seconds);
+}
+
 }  // namespace msc_vo

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "msc_vo/geometry/camera_velocity.h"
+#include "msc_vo/geometry/pose_covariance.h"
 #include "msc_vo/geometry/rigid3.h"
 
 namespace msc_vo {
@@ -43,5 +44,9 @@ class MotionModel {
   double interval_ = 0.0;  // seconds over which velocity_ was measured; 0: at rest
   CameraVelocity velocity_;
 };
+
+/// Covariance of the motion of a hand-held camera within `seconds`, if nothing is known of it: 1
+/// rad/s and 0.5 m/s, in the camera frame.
+PoseCovariance CovarianceOfRest(double seconds);
 
 }  // namespace msc_vo

@@ -21,8 +21,6 @@ namespace {
 
 // In 1/30 s, and at least one per frame: bounds the cost.
 constexpr int kKeyframesToTry = 1;
-// Keyframes of the same map for which the covariance of the path is computed: bounds the cost.
-constexpr int kMaxCandidates = 20;
 
 size_t NumKeyframes(const InactiveMaps& maps) {
   size_t count = 0;
@@ -72,10 +70,10 @@ double MedianDepth(const Frame& frame) {
 }
 
 // Covariance of the pose of a frame relative to a keyframe, apart from the landmarks that it was
-// tracked with, in its camera frame.
-PoseCovariance CovarianceSince(const TrackedFrame& tracked, const Map& map, KeyframeId keyframe) {
-  return TransportCovariance(tracked.cam_from_reference,
-                             PathCovariance(map, keyframe, tracked.reference)) +
+// tracked with, in its camera frame. `paths`: from its reference keyframe.
+PoseCovariance CovarianceSince(const TrackedFrame& tracked, const PathCovariances& paths,
+                               KeyframeId keyframe) {
+  return TransportCovariance(tracked.cam_from_reference, paths.OfRoot(keyframe)) +
          CameraCovariance(tracked.cam_from_world, tracked.pose.covariance);
 }
 
@@ -93,13 +91,15 @@ bool CanShowSame(const TrackedFrame& tracked, const Keyframe& keyframe, double r
          cam_from_keyframe.translation().norm() < reach + 3.0 * translation_sigma;
 }
 
-// Whether the drift of the path can be as large as the correction by a revisit.
-bool IsPossible(const TrackedFrame& tracked, const Map& map, const Revisit& revisit) {
+// Whether the drift of the path can be as large as the correction by a revisit. `paths`: from the
+// reference keyframe of the frame.
+bool IsPossible(const TrackedFrame& tracked, const Map& map, const PathCovariances& paths,
+                const Revisit& revisit) {
   const Rigid3 by_path = tracked.cam_from_world * map.CamFromWorld(revisit.reference).Inverse();
   const Rigid3 cam_from_world = revisit.cam_from_reference * map.CamFromWorld(revisit.reference);
-  return IsPossibleDrift(map, revisit.reference, tracked.reference, by_path,
-                         revisit.cam_from_reference,
-                         CameraCovariance(tracked.cam_from_world, tracked.pose.covariance) +
+  return IsPossibleDrift(by_path, revisit.cam_from_reference,
+                         paths.OfRoot(revisit.reference) +
+                             CameraCovariance(tracked.cam_from_world, tracked.pose.covariance) +
                              CameraCovariance(cam_from_world, revisit.covariance));
 }
 
@@ -156,20 +156,19 @@ std::optional<Revisit> PlaceSearch::FindInInactiveMaps(const TrackedFrame& track
     std::optional<Revisit> found =
         Relocalize(tracked, snapshot.noise_scale, map, *map.FindKeyframe(id));
     if (!found) continue;
-    const std::optional<Revisit> rival =
-        FindRival(tracked, snapshot.noise_scale, map, *found, places);
+    const std::optional<Revisit> rival = FindRival(tracked, snapshot, map, *found, places);
     const bool is_certain =
         !rival && look_alikes_.AreExcluded(options_, tracked, snapshot, map, *found);
     if (is_certain) return found;
-    look_alikes_.Add(tracked, snapshot.map, map, *found);
-    if (rival) look_alikes_.Add(tracked, snapshot.map, map, *rival);
+    look_alikes_.Add(tracked, snapshot, map, *found);
+    if (rival) look_alikes_.Add(tracked, snapshot, map, *rival);
     return std::nullopt;
   }
   return std::nullopt;
 }
 
 std::optional<Revisit> PlaceSearch::FindRival(const TrackedFrame& tracked,
-                                              const NoiseScale& noise_scale, const Map& map,
+                                              const MapSnapshot& snapshot, const Map& map,
                                               const Revisit& found,
                                               const std::vector<Place>& places) const {
   constexpr int kMaxRivals = 3;  // bounds the cost
@@ -180,14 +179,14 @@ std::optional<Revisit> PlaceSearch::FindRival(const TrackedFrame& tracked,
     const Keyframe* keyframe = map.FindKeyframe(place.keyframe);
     if (keyframe == nullptr || neighbours.count(place.keyframe) > 0) continue;
     if (++num_rivals > kMaxRivals) break;
-    std::optional<Revisit> rival = Relocalize(tracked, noise_scale, map, *keyframe);
+    std::optional<Revisit> rival = Relocalize(tracked, snapshot.noise_scale, map, *keyframe);
     if (!rival) continue;
     // Poses that differ by no more than the drift between two visits are one place.
     const Rigid3 rival_from_world = rival->cam_from_reference * map.CamFromWorld(rival->reference);
+    const PathCovariances paths(map, snapshot.loops, found.reference);
     const bool is_same = IsPossibleDrift(
-        map, rival->reference, found.reference,
         cam_from_world * map.CamFromWorld(rival->reference).Inverse(), rival->cam_from_reference,
-        CameraCovariance(cam_from_world, found.covariance) +
+        paths.OfRoot(rival->reference) + CameraCovariance(cam_from_world, found.covariance) +
             CameraCovariance(rival_from_world, rival->covariance));
     if (!is_same) return rival;
   }
@@ -201,21 +200,14 @@ std::optional<Revisit> PlaceSearch::FindLoop(const TrackedFrame& tracked,
   const std::set<KeyframeId> neighbours = NeighboursOf(tracked.matches, tracked.reference, map);
   if (neighbours.size() == map.keyframes().size()) return std::nullopt;
   const double reach = MedianDepth(*tracked.frame);
-  // Not smaller than that of any path in the map: most keyframes fail with it already.
-  const PoseCovariance widest = CovarianceSince(tracked, map, map.keyframes().front().first) +
-                                CovarianceSince(tracked, map, map.keyframes().back().first);
-  int num_candidates = 0;
+  const PathCovariances paths(map, snapshot.loops, tracked.reference);
   for (const Place& place : Rank(*tracked.frame)) {
     const Keyframe* keyframe = map.FindKeyframe(place.keyframe);
     if (keyframe == nullptr || neighbours.count(place.keyframe) > 0) continue;
-    const auto can_show = [&](const PoseCovariance& covariance) {
-      return CanShowSame(tracked, *keyframe, reach, covariance);
-    };
-    if (!can_show(widest)) continue;
-    if (++num_candidates > kMaxCandidates) break;
-    if (!can_show(CovarianceSince(tracked, map, keyframe->id))) continue;
+    const PoseCovariance covariance = CovarianceSince(tracked, paths, keyframe->id);
+    if (!CanShowSame(tracked, *keyframe, reach, covariance)) continue;
     std::optional<Revisit> found = Relocalize(tracked, snapshot.noise_scale, map, *keyframe);
-    if (found && IsPossible(tracked, map, *found)) return found;
+    if (found && IsPossible(tracked, map, paths, *found)) return found;
     return std::nullopt;
   }
   return std::nullopt;

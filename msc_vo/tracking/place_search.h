@@ -75,7 +75,7 @@ class PlaceSearch {
   std::optional<Revisit> FindLoop(const TrackedFrame& tracked, const MapSnapshot& snapshot) const;
   // The pose of the frame at another of the `places` of an inactive map, if it could as well be
   // there.
-  std::optional<Revisit> FindRival(const TrackedFrame& tracked, const NoiseScale& noise_scale,
+  std::optional<Revisit> FindRival(const TrackedFrame& tracked, const MapSnapshot& snapshot,
                                    const Map& map, const Revisit& found,
                                    const std::vector<Place>& places) const;
   // The pose of the frame by the landmarks around a keyframe of `map`.

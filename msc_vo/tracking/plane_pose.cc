@@ -7,22 +7,18 @@
 #include "msc_vo/frame/feature_counts.h"
 #include "msc_vo/matching/plane_matcher.h"
 #include "msc_vo/pose_estimation/plane_factors.h"
+#include "msc_vo/tracking/motion_model.h"
 
 namespace msc_vo {
 
 namespace {
 
-// A hand-held camera may stop, turn and accelerate at any time: m/s, rad/s, m/s^2, rad/s^2.
-constexpr double kSpeedSigma = 0.5, kTurnSigma = 1.0;
+// A hand-held camera may accelerate at any time: m/s^2, rad/s^2.
 constexpr double kAccelerationSigma = 3.0, kTurnAccelerationSigma = 6.0;
 
 // Of an image of another place, in those that a map can begin with: blank walls have some tens of
 // false corners.
 constexpr int kManyFeatures = 5;
-
-PoseCovariance CovarianceOfRest(double seconds) {
-  return IsotropicCovariance(kTurnSigma * seconds, kSpeedSigma * seconds);
-}
 
 PoseCovariance CovarianceOfConstantVelocity(double seconds) {
   const double squared = seconds * seconds;

@@ -59,7 +59,8 @@ McapFrame Frame() {
   frame.odom_from_cam = {Eigen::Quaterniond::Identity(), {1.0, 2.0, 3.0}};
   PoseCovariance covariance = PoseCovariance::Zero();
   covariance.diagonal() << 1.0, 2.0, 3.0, 4.0, 5.0, 6.0;  // about right, down, forward; along them
-  frame.covariance = covariance;
+  frame.world_covariance = covariance;
+  frame.odom_covariance = 2.0 * covariance;
   return frame;
 }
 
@@ -127,10 +128,10 @@ TEST_F(McapExportTest, HasCovariancesInTheFrameOfTheHeader) {
   };
   // In the odometry the camera looks along x: its forward axis is x, its right axis -y.
   EXPECT_THAT(diagonal(Last36(bag->Read("/msc_vo/odometry", 0), 42)),
-              near({6.0, 4.0, 5.0, 3.0, 1.0, 2.0}));
+              near({12.0, 8.0, 10.0, 6.0, 2.0, 4.0}));
   // In the map it looks along -y, and its right axis is -x.
   EXPECT_THAT(diagonal(Last36(bag->Read("/msc_vo/pose", 0))), near({4.0, 6.0, 5.0, 1.0, 3.0, 2.0}));
-  run.frames[0].covariance.reset();  // unknown
+  run.frames[0].world_covariance.reset();  // unknown
   EXPECT_EQ(Last36(Export(run)->Read("/msc_vo/pose", 0)), Numbers(36, 0.0));
 }
 

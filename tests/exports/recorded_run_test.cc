@@ -41,7 +41,8 @@ FrameResult Frame() {
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j <= i; ++j) root(i, j) = 1e-3 * (1.0 + i - 0.7 * j);
   }
-  frame.covariance = root * root.transpose();
+  frame.world_covariance = root * root.transpose();
+  frame.odometry_covariance = 4.0 * *frame.world_covariance;
   return frame;
 }
 
@@ -52,15 +53,17 @@ TEST_F(RecordedRunTest, HasPoseAndCovarianceOfEachFrame) {
   const auto frames = ReadFramesCsv(Path("frames.csv"));
   ASSERT_EQ(frames.size(), 2u);
   const RecordedFrame& frame = frames.at(1305031102175304);
-  ASSERT_TRUE(frame.covariance);
-  EXPECT_LT((*frame.covariance - *Frame().covariance).norm(), 1e-8 * Frame().covariance->norm());
+  ASSERT_TRUE(frame.world_covariance && frame.odometry_covariance);
+  EXPECT_TRUE(frame.world_covariance->isApprox(*Frame().world_covariance, 1e-8));
+  EXPECT_TRUE(frame.odometry_covariance->isApprox(*Frame().odometry_covariance, 1e-8));
   EXPECT_LT((frame.odom_from_cam.params - Frame().cam_from_odometry.Inverse().params).norm(), 1e-8);
-  EXPECT_FALSE(frames.at(1305031103000000).covariance);
+  EXPECT_FALSE(frames.at(1305031103000000).world_covariance);
+  EXPECT_FALSE(frames.at(1305031103000000).odometry_covariance);
 }
 
 TEST_F(RecordedRunTest, NamesFileLineAndFix) {
   EXPECT_THAT(ErrorOf(""), Names("frames.csv:1"));
-  EXPECT_THAT(ErrorOf("time,status\n1,tracked\n"), Names("frames.csv:1", "sigma_rx_deg", "again"));
+  EXPECT_THAT(ErrorOf("time,status\n1,tracked\n"), Names("frames.csv:1", "odom_qx", "again"));
   std::string text = FormatFramesCsv({Frame()});
   EXPECT_THAT(ErrorOf(text.substr(0, text.size() - 40) + "\n"), Names("frames.csv:2", "columns"));
   text.replace(text.find("1305031102"), 10, "1305O31102");

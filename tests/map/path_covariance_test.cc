@@ -5,7 +5,9 @@
 
 #include <cmath>
 #include <memory>
+#include <vector>
 
+#include <Eigen/Dense>
 #include <gtest/gtest.h>
 
 #include "msc_vo/geometry/so3.h"
@@ -71,7 +73,7 @@ TEST_F(PathCovarianceTest, BoundsTheDrift) {
   const Rigid3 by_path = map_.CamFromWorld(10) * map_.CamFromWorld(0).Inverse();
   const PoseCovariance none = PoseCovariance::Zero();
   const auto is_possible = [&](const Rigid3& error, const PoseCovariance& covariance) {
-    return IsPossibleDrift(map_, 0, 10, by_path, error * by_path, covariance);
+    return IsPossibleDrift(by_path, error * by_path, PathCovariance(map_, 0, 10) + covariance);
   };
   const auto shift = [](double metres) {
     return Rigid3(Eigen::Quaterniond::Identity(), {metres, 0.0, 0.0});
@@ -83,6 +85,120 @@ TEST_F(PathCovarianceTest, BoundsTheDrift) {
   EXPECT_FALSE(is_possible({ExpSO3({0.0, 0.5, 0.0}), Eigen::Vector3d::Zero()}, none));
   // An inexact measurement allows more.
   EXPECT_TRUE(is_possible(shift(6.0 * sigma), 9.0 * Along(0, 10) * PoseCovariance::Identity()));
+}
+
+// Keyframes on a circle, looking outwards, about 1 m from each other: the last one is beside the
+// first one.
+class LoopCovarianceTest : public testing::Test {
+ protected:
+  static constexpr int kNumKeyframes = 24;
+
+  LoopCovarianceTest() {
+    for (int i = 0; i < kNumKeyframes; ++i) {
+      const double angle = 2.0 * M_PI * i / kNumKeyframes;
+      const Rigid3 world_from_cam(ExpSO3({0.0, angle, 0.0}),
+                                  {4.0 * std::sin(angle), 0.0, 4.0 * std::cos(angle)});
+      map_.AddKeyframe(std::make_shared<Frame>(), world_from_cam.Inverse());
+      map_.SetStepCovariance(i, IsotropicCovariance(0.01, 0.05));
+    }
+  }
+  PoseGraphEdge EdgeBetween(KeyframeId from, KeyframeId to) const {
+    const Rigid3 to_from_from = map_.CamFromWorld(to) * map_.CamFromWorld(from).Inverse();
+    return {from, to, to_from_from,
+            CovarianceOfCamera(to_from_from, IsotropicCovariance(0.002, 0.01))};
+  }
+  static bool IsSmaller(const PoseCovariance& a, const PoseCovariance& b) {
+    const PoseCovariance difference = b - a;
+    return difference.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff() > 0.0;
+  }
+  // Covariance of keyframe `id` relative to the first one in its own frame, given all steps and
+  // loops, without the systematic part: the edges are linear in errors expressed in one frame.
+  PoseCovariance Marginal(const std::vector<PoseGraphEdge>& loops, int id) const {
+    const Rigid3 root_from_world = map_.CamFromWorld(0);
+    Eigen::MatrixXd information = Eigen::MatrixXd::Zero(6 * kNumKeyframes, 6 * kNumKeyframes);
+    const auto add = [&](KeyframeId from, KeyframeId to, const PoseCovariance& camera) {
+      const PoseCovariance weight =
+          TransportCovariance(root_from_world * map_.CamFromWorld(to).Inverse(), 4.0 * camera)
+              .inverse();
+      information.block<6, 6>(6 * from, 6 * from) += weight;
+      information.block<6, 6>(6 * to, 6 * to) += weight;
+      information.block<6, 6>(6 * from, 6 * to) -= weight;
+      information.block<6, 6>(6 * to, 6 * from) -= weight;
+    };
+    for (int i = 1; i < kNumKeyframes; ++i) add(i - 1, i, *map_.StepCovariance(i));
+    for (const PoseGraphEdge& loop : loops) {
+      add(loop.from, loop.to, CameraCovariance(loop.to_from_from, loop.covariance));
+    }
+    const int size = 6 * (kNumKeyframes - 1);  // the first one is fixed
+    const Eigen::MatrixXd covariance = information.bottomRightCorner(size, size).inverse();
+    return TransportCovariance(map_.CamFromWorld(id) * root_from_world.Inverse(),
+                               covariance.block<6, 6>(6 * (id - 1), 6 * (id - 1)));
+  }
+
+  Map map_;
+};
+
+TEST_F(LoopCovarianceTest, IsThatOfThePathWithoutLoops) {
+  map_.RemoveKeyframe(7, 8);
+  for (const KeyframeId root : {0, 5, 7, 23}) {
+    const PathCovariances covariances(map_, {}, root);
+    for (KeyframeId id = 0; id < kNumKeyframes; ++id) {
+      EXPECT_TRUE(covariances.Of(id).isApprox(PathCovariance(map_, root, id), 1e-9)) << id;
+      EXPECT_TRUE(covariances.OfRoot(id).isApprox(PathCovariance(map_, id, root), 1e-9)) << id;
+    }
+  }
+}
+
+TEST_F(LoopCovarianceTest, GoesOnToACameraNearAKeyframe) {
+  const PathCovariances covariances(map_, {}, 0);
+  const Rigid3 cam_from_keyframe(ExpSO3({0.0, 0.5, 0.0}), {0.6, 0.0, 0.8});  // 1 m
+  const PoseCovariance camera = covariances.Of(2, cam_from_keyframe);
+  // The rotation, 10 mrad twice with four times the variance, has a lever of 1 m across it.
+  const double length = 2.0 * 8.0 * std::sin(M_PI / kNumKeyframes) + 1.0;
+  const double systematic = std::pow(0.05 * M_PI / 180.0 * length, 2);
+  EXPECT_NEAR(camera(1, 1), 8.0 * std::pow(0.01, 2) + systematic, 1e-9);
+  EXPECT_TRUE(IsSmaller(TransportCovariance(cam_from_keyframe, covariances.Of(2)),
+                        camera + 1e-12 * PoseCovariance::Identity()));
+}
+
+TEST_F(LoopCovarianceTest, TakesTheShorterWayThroughLoops) {
+  const std::vector<PoseGraphEdge> loops{EdgeBetween(0, 23)};
+  const PathCovariances open(map_, {}, 0), closed(map_, loops, 0);
+  for (KeyframeId id = 1; id <= 11; ++id) EXPECT_EQ(closed.Of(id), open.Of(id)) << id;
+  for (KeyframeId id = 13; id < kNumKeyframes; ++id) {
+    EXPECT_LT(closed.OfRoot(id).trace(), open.OfRoot(id).trace()) << id;
+  }
+  for (KeyframeId id = 20; id < kNumKeyframes; ++id) {
+    EXPECT_TRUE(IsSmaller(closed.Of(id), open.Of(id))) << id;  // in all directions
+  }
+  // The edges beside the loop: of the same length, and the loop is more accurate.
+  EXPECT_TRUE(IsSmaller(closed.OfRoot(23), open.OfRoot(1)));
+  EXPECT_NEAR(closed.OfRoot(22).trace(), (closed.OfRoot(23) + open.OfRoot(1)).trace(),
+              0.3 * closed.OfRoot(22).trace());
+  // The same in both directions.
+  const PathCovariances from_last(map_, {EdgeBetween(23, 0)}, 23);
+  EXPECT_LT(from_last.Of(0).trace(), open.OfRoot(1).trace());
+}
+
+TEST_F(LoopCovarianceTest, IsNotSmallerThanTheMarginalOfTheGraph) {
+  const std::vector<PoseGraphEdge> loops{EdgeBetween(0, 23), EdgeBetween(3, 15)};
+  const PathCovariances covariances(map_, loops, 0);
+  for (int id = 1; id < kNumKeyframes; ++id) {
+    EXPECT_TRUE(IsSmaller(Marginal(loops, id), covariances.Of(id))) << id;
+  }
+  // Without loops, the marginal is the path without its systematic part, 5 mm per metre.
+  const PoseCovariance systematic = PathCovariances(map_, {}, 0).Of(2) - Marginal({}, 2);
+  EXPECT_NEAR(std::sqrt(systematic(3, 3)), 0.005 * 2.0 * 8.0 * std::sin(M_PI / kNumKeyframes),
+              1e-6);
+}
+
+TEST_F(LoopCovarianceTest, IgnoresLoopsOfOtherMaps) {
+  const auto to_other = [](KeyframeId from, KeyframeId to) {
+    return PoseGraphEdge{from, to, Rigid3(), PoseCovariance::Identity()};
+  };
+  const PathCovariances open(map_, {}, 0), other(map_, {EdgeBetween(0, 23), to_other(0, 99)}, 0);
+  EXPECT_LT(other.Of(23).trace(), open.Of(23).trace());
+  EXPECT_EQ(PathCovariances(map_, {to_other(0, 99), to_other(77, 23)}, 0).Of(23), open.Of(23));
 }
 
 }  // namespace

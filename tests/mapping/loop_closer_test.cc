@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "msc_vo/geometry/so3.h"
+#include "msc_vo/map/path_covariance.h"
 
 namespace msc_vo {
 namespace {
@@ -101,6 +102,35 @@ TEST_F(LoopCloserTest, IgnoresLoopsOfKeyframesThatTheMapDoesNotKnow) {
   for (const auto& [id, keyframe] : map_.keyframes()) {
     EXPECT_EQ(with_edge.CamFromWorld(id).params, keyframe.cam_from_world.params) << id;
   }
+}
+
+// After the loop, keyframes are tracked in the part of the map that the first round has made.
+TEST_F(LoopCloserTest, LinksKeyframesToThePartsOfTheMapThatTheyAreTrackedIn) {
+  const auto add = [this](KeyframeId id, KeyframeId reference) {
+    if (map_.FindKeyframe(id) == nullptr) {
+      const int place = static_cast<int>(id) - kNumInRound;
+      map_.AddKeyframe(map_.FindKeyframe(0)->frame, map_.CamFromWorld(place), id);
+      map_.SetStepCovariance(id, kCovariance);
+    }
+    closer_.AddKeyframe(map_, id, reference);
+  };
+  add(39, 3);  // there is no loop
+  EXPECT_TRUE(closer_.edges().empty());
+  for (const int i : {36, 37, 38}) Revisit(i, i - kNumInRound, 0.0);
+  ASSERT_TRUE(closer_.TryClose(&map_));
+  ASSERT_EQ(closer_.edges().size(), 3u);
+  const double before = PathCovariances(map_, closer_.edges(), 0).Of(38).trace();
+  for (KeyframeId id = 39; id < 60; ++id) add(id, id - kNumInRound);
+  ASSERT_EQ(closer_.edges().size(), 3u + 4u);  // 43, 48, 53, 58
+  EXPECT_EQ(closer_.edges()[3].from, 7);
+  EXPECT_EQ(closer_.edges()[3].to, 43);
+  // As far from the origin as the keyframe of the first round beside it, not once around.
+  const PathCovariances linked(map_, closer_.edges(), 0);
+  EXPECT_LT(linked.Of(58).trace(), 1.5 * linked.Of(22).trace());
+  EXPECT_GT(linked.Of(58).trace(), before);
+  add(60, 59);  // another part: nothing older than the last edge
+  add(65, 58);
+  EXPECT_EQ(closer_.edges().size(), 7u);
 }
 
 TEST_F(LoopCloserTest, RefusesWhatDriftCannotExplain) {

@@ -3,13 +3,17 @@
 
 // A walk along desks that look alike, back to the first one.
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "tests/support/rendered_images.h"
+#include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
 #include "msc_vo/checkpoint/binary_reader.h"
 #include "msc_vo/checkpoint/binary_writer.h"
+#include "msc_vo/geometry/so3.h"
 #include "msc_vo/odometry/odometry.h"
 
 namespace msc_vo {
@@ -95,6 +99,42 @@ TEST_F(LoopsTest, AreClosedAtTheTruePlaceAndNamed) {
   EXPECT_EQ(num_changes, 1);
 }
 
+// Errors of a pose relative to the first frame, by a covariance, squared; 6 degrees of freedom.
+double SquaredError(const Rigid3& estimate, const Rigid3& truth, const PoseCovariance& covariance) {
+  const Rigid3 error = estimate * truth.Inverse();
+  Eigen::Matrix<double, 6, 1> tangent;
+  tangent << LogSO3(error.rotation()), error.translation();
+  return tangent.dot(CameraCovariance(estimate, covariance).ldlt().solve(tangent));
+}
+
+TEST_F(LoopsTest, ReduceTheCovarianceOfPosesInTheWorld) {
+  const Walk run = Track({});
+  ASSERT_EQ(run.result.loops.size(), 1u);
+  const Rigid3 first = sequence_->PoseAt(0).world_from_cam;
+  double largest = 0.0;  // standard deviation in the world before the loop, metres
+  for (size_t i = 1; i < run.live.size(); ++i) {
+    const FrameResult &live = run.live[i], &final = run.result.frames[i];
+    ASSERT_TRUE(live.covariance && live.world_covariance && live.odometry_covariance) << i;
+    ASSERT_TRUE(final.world_covariance) << i;
+    const auto sigma = [](const Rigid3& pose, const PoseCovariance& covariance) {
+      return std::sqrt(CameraCovariance(pose, covariance).bottomRightCorner<3, 3>().trace());
+    };
+    const double in_world = sigma(live.cam_from_world, *live.world_covariance);
+    EXPECT_GE(in_world, sigma(live.cam_from_world, *live.covariance)) << i;
+    if (static_cast<int>(i) <= run.result.loops[0].frame) {
+      largest = std::max(largest, in_world);
+    } else if (i + 1 == run.live.size()) {
+      EXPECT_LT(in_world, 0.3 * largest);
+      EXPECT_GT(sigma(live.cam_from_odometry, *live.odometry_covariance), 0.9 * largest);
+    }
+    // 99.9 % quantile of chi-square with 6 degrees of freedom: 22.5.
+    const Rigid3 truth = sequence_->PoseAt(static_cast<int>(i)).world_from_cam.Inverse() * first;
+    EXPECT_LT(SquaredError(live.cam_from_world, truth, *live.world_covariance), 22.5) << i;
+    EXPECT_LT(SquaredError(final.cam_from_world, truth, *final.world_covariance), 22.5) << i;
+    EXPECT_LT(SquaredError(live.cam_from_odometry, truth, *live.odometry_covariance), 22.5) << i;
+  }
+}
+
 TEST_F(LoopsTest, AreNotClosedIfSwitchedOff) {
   OdometryOptions options;
   options.tracking.find_loops = false;
@@ -118,6 +158,8 @@ TEST_F(LoopsTest, AreTheSameAtAnyNumberOfThreadsAndAfterARestore) {
                 two.result.frames[i].cam_from_world.params)
           << i << " saved after " << saved_after;
       ASSERT_EQ(other.live[i].world_changed.has_value(), two.live[i].world_changed.has_value());
+      ASSERT_EQ(other.live[i].world_covariance, two.live[i].world_covariance) << i;
+      ASSERT_EQ(other.live[i].odometry_covariance, two.live[i].odometry_covariance) << i;
     }
   }
 }

@@ -3,6 +3,9 @@
 
 #include "msc_vo/odometry/odometry_pose.h"
 
+#include <cmath>
+
+#include <Eigen/Dense>
 #include <gtest/gtest.h>
 
 #include "msc_vo/geometry/so3.h"
@@ -30,6 +33,8 @@ class OdometryPoseTest : public testing::Test {
     tracked.status = status;
     if (steps) tracked.cam_from_last = Steps(*steps);
     if (is_keyframe) tracked.keyframe.id = 1;
+    tracked.pose.usable = IsEstimated(status) && steps;
+    tracked.pose.covariance = IsotropicCovariance(1e-4, 1e-3);
     const Rigid3 before = pose_.cam_from_odometry();
     pose_.Add(tracked);
     last_step_ = pose_.cam_from_odometry() * before.Inverse();
@@ -96,6 +101,58 @@ TEST_F(OdometryPoseTest, GoesOnFromAKeyframeWithoutImage) {
   ExpectLastStep(step());
   Add(TrackingStatus::kTracked, 1);
   ExpectLastStep(step());
+}
+
+// Standard deviation of the camera's position, metres.
+double PositionSigma(const OdometryPose& pose) {
+  return std::sqrt(CameraCovariance(pose.cam_from_odometry(), *pose.covariance())
+                       .bottomRightCorner<3, 3>()
+                       .trace());
+}
+
+TEST_F(OdometryPoseTest, HasACovarianceThatGrowsWithThePath) {
+  Add(TrackingStatus::kTracked, {}, true);
+  EXPECT_FALSE(pose_.covariance());  // a definition
+  Add(TrackingStatus::kTracked, 1);
+  double before = PositionSigma(pose_);
+  EXPECT_NEAR(before, std::sqrt(3.0) * 1e-3, 1e-4);
+  for (int i = 0; i < 20; ++i) {
+    Add(TrackingStatus::kTracked, 1, true);
+    EXPECT_GT(PositionSigma(pose_), before) << i;
+    before = PositionSigma(pose_);
+  }
+  // 20 keyframes, each with four times the variance of its pose; 1 m with 5 mm of each axis.
+  EXPECT_GT(before, std::sqrt(3.0 * (20.0 * 4e-6 + 25e-6)));
+  EXPECT_LT(before, 2.0 * std::sqrt(3.0 * (20.0 * 4e-6 + 25e-6)));
+  // Without keyframes, only the distance counts.
+  for (int i = 0; i < 4; ++i) Add(TrackingStatus::kTracked, 1);
+  EXPECT_LT(PositionSigma(pose_), 1.3 * before);
+}
+
+TEST_F(OdometryPoseTest, HasTheMissedMotionInItsCovariance) {
+  Add(TrackingStatus::kTracked, {}, true);
+  Add(TrackingStatus::kTracked, 1);
+  const double before = PositionSigma(pose_);
+  Add(TrackingStatus::kLost, 0);
+  EXPECT_FALSE(pose_.covariance());
+  Add(TrackingStatus::kTracked, 20);  // half of which the pose goes on by
+  const Rigid3 missing = pose_.cam_from_odometry() * Steps(21).Inverse();
+  const Eigen::Vector3d error = missing.translation();
+  ASSERT_GT(error.norm(), 0.3);
+  EXPECT_NEAR(PositionSigma(pose_), error.norm(), 0.1 * error.norm());
+  EXPECT_GT(PositionSigma(pose_), before);
+  const PoseCovariance camera = CameraCovariance(pose_.cam_from_odometry(), *pose_.covariance());
+  EXPECT_LT(error.dot(camera.bottomRightCorner<3, 3>().inverse() * error), 1.0);
+}
+
+TEST_F(OdometryPoseTest, IsUnknownWhereAMapBegins) {
+  Add(TrackingStatus::kTracked, {}, true);
+  Add(TrackingStatus::kTracked, 1);
+  Add(TrackingStatus::kLost, 1);
+  Skip(19);
+  Add(TrackingStatus::kTracked, {}, true);
+  Add(TrackingStatus::kTracked, 1);
+  EXPECT_GT(PositionSigma(pose_), 1.0);  // 2 s without an image
 }
 
 }  // namespace

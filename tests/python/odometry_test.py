@@ -170,7 +170,8 @@ class Results(unittest.TestCase):
         self.assertEqual(frame.cam_from_world.shape, (4, 4))
         np.testing.assert_allclose(frame.cam_from_world @ frame.world_from_cam, np.eye(4),
                                    atol=1e-12)
-        self.assertTrue(np.all(np.linalg.eigvalsh(frame.covariance) > 0.0))
+        for covariance in (frame.covariance, frame.world_covariance, frame.odometry_covariance):
+            self.assertTrue(np.all(np.linalg.eigvalsh(covariance) > 0.0))
         self.assertGreater(frame.num_inlier_points, 20)
         self.assertGreater(frame.times["tracking"], 0.0)
         self.assertIn("tracked", repr(frame))

@@ -248,12 +248,16 @@ class Frames(unittest.TestCase):
         self.assertEqual(result.covariances.shape, (5, 6, 6))
         self.assertEqual(result.status.tolist(), [frame.status for frame in result.frames])
         self.assertEqual(np.count_nonzero(result.status == "dropped"), 1)
-        for frame, covariance in zip(result.frames, result.covariances):
-            if frame.covariance is not None and np.any(frame.covariance):
-                np.testing.assert_array_equal(frame.covariance, covariance)
-            else:
-                self.assertTrue(np.isnan(covariance).all())
-        self.assertTrue(np.all(np.linalg.eigvalsh(result.covariances[1:4]) > 0.0))
+        for name in ("covariance", "world_covariance", "odometry_covariance"):
+            covariances = getattr(result, name + "s")
+            for frame, covariance in zip(result.frames, covariances):
+                if getattr(frame, name) is not None:
+                    np.testing.assert_array_equal(getattr(frame, name), covariance)
+                else:
+                    self.assertTrue(np.isnan(covariance).all())
+            self.assertTrue(np.all(np.linalg.eigvalsh(covariances[1:4]) > 0.0))
+        drift = result.world_covariances[1:4] - result.covariances[1:4]
+        self.assertTrue(np.all(np.trace(drift, axis1=1, axis2=2) >= 0.0))
         empty = support.room_odometry().finish()
         self.assertEqual((empty.covariances.shape, empty.status.shape), ((0, 6, 6), (0,)))
         self.assertEqual(empty.status.dtype.kind, "U")

@@ -4,6 +4,8 @@
 #include "msc_vo/report/run_json.h"
 
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include "fake_run.h"
 #include <gmock/gmock.h>
@@ -32,6 +34,7 @@ TEST(RunJson, HasOneColumnPerQuantity) {
   ReportData data = MakeFakeRun(3);
   data.frames[1].rotation_sigma_deg = 0.5;
   data.frames[1].translation_sigma = 0.25;
+  data.frames[1].world_sigma = CameraSigma{0.75, 0.5};
   data.frames[1].submap = kNoSubMapNumber;
   data.frames[2].submap = 7;
   const json run = json::parse(FormatRunJson(data));
@@ -40,9 +43,16 @@ TEST(RunJson, HasOneColumnPerQuantity) {
   EXPECT_EQ(frames["time"], EncodeBase64(std::vector<float>{0.0F, 1 / 30.0F, 2 / 30.0F}));
   EXPECT_EQ(frames["keyframe"], EncodeBase64(std::vector<uint8_t>{1, 0, 0}));
   EXPECT_EQ(frames["submap"], EncodeBase64(std::vector<uint16_t>{0, 65535, 7}));
-  // Base64 has four characters for three bytes: 3 frames of 7, 2, 5 floats and 4 shorts.
+  // Base64 has four characters for three bytes: 3 frames of 7 and 5 floats and 4 shorts.
   EXPECT_EQ(frames["pose"].get<std::string>().size(), 3u * 7 * 4 * 4 / 3);
-  EXPECT_EQ(frames["sigma"].get<std::string>().size(), 3u * 2 * 4 * 4 / 3);
+  std::vector<float> sigma(3 * 6, std::numeric_limits<float>::quiet_NaN());
+  for (size_t i = 0; i < 3; ++i) {
+    if (data.frames[i].rotation_sigma_deg) sigma[6 * i] = *data.frames[i].rotation_sigma_deg;
+    if (data.frames[i].translation_sigma) sigma[6 * i + 1] = *data.frames[i].translation_sigma;
+  }
+  sigma[6 + 2] = 0.75F;
+  sigma[6 + 3] = 0.5F;
+  EXPECT_EQ(frames["sigma"], EncodeBase64(sigma));
   EXPECT_EQ(frames["stage_ms"].get<std::string>().size(), 3u * 5 * 4 * 4 / 3);
   EXPECT_EQ(frames["counts"].get<std::string>().size(), 3u * 4 * 2 * 4 / 3);
   EXPECT_EQ(run["stages"][0], (json{{"name", "points"}, {"stacked", false}}));

@@ -45,6 +45,9 @@ class ResultFilesTest : public TemporaryFolder {
     result.frames[1].covariance = PoseCovariance::Zero();
     (*result.frames[1].covariance)(1, 1) = std::pow(DegreesToRadians(0.5), 2);
     (*result.frames[1].covariance)(3, 3) = 0.04;
+    result.frames[1].world_covariance = IsotropicCovariance(DegreesToRadians(0.25), 0.5);
+    (*result.frames[1].world_covariance)(3, 5) = (*result.frames[1].world_covariance)(5, 3) = 0.125;
+    result.frames[1].odometry_covariance = IsotropicCovariance(DegreesToRadians(0.75), 2.0);
     result.frames[4].num_dynamic = 80;
     result.frames[2].status = TrackingStatus::kPredicted;
     result.frames[2].cause = LossCause::kNoDepth;
@@ -119,9 +122,14 @@ TEST_F(ResultFilesTest, WritesOneRowPerFrame) {
                        "lines_ms,depth_ms,waiting_ms,matching_ms,pose_ms,tracking_ms,mapping_ms,"
                        "sigma_rx_deg,sigma_ry_deg,sigma_rz_deg,sigma_tx,sigma_ty,sigma_tz,"
                        "dynamic,segment,rho_rx_ry,"));
-  EXPECT_THAT(csv, HasSubstr(",odom_x,odom_y,odom_z,odom_qx,odom_qy,odom_qz,odom_qw\n"));
+  EXPECT_THAT(csv, HasSubstr(",odom_x,odom_y,odom_z,odom_qx,odom_qy,odom_qz,odom_qw,"
+                             "world_sigma_rx_deg,"));
+  EXPECT_THAT(csv, HasSubstr(",world_rho_ty_tz,odom_sigma_rx_deg,"));
+  EXPECT_THAT(csv, HasSubstr(",odom_rho_ty_tz\n"));
   EXPECT_THAT(csv, HasSubstr("\n10.000000,tracked,1,100,0,50,7,0.000,"));
   EXPECT_THAT(csv, HasSubstr(",0,0.5,0,0.2,0,0,0,0,0,"));  // degrees, metres
+  EXPECT_THAT(csv, HasSubstr(",0.25,0.25,0.25,0.5,0.5,0.5,0,0,0,0,0,0,0,0,0,0,0,0,0,0.5,0,"
+                             "0.75,0.75,0.75,2,2,2,"));
   EXPECT_THAT(csv, HasSubstr(",80,0,0,0,"));
   const auto commas = [](const std::string& row) {
     return std::count(row.begin(), row.end(), ',');

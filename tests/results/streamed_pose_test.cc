@@ -21,6 +21,11 @@ FrameResult Frame() {
   frame.cam_from_world = Rigid3(turned, {0.0, 0.0, 2.0}).Inverse();
   // 1 cm and 2 mrad in the camera frame.
   frame.covariance = CovarianceOfCamera(frame.cam_from_world, IsotropicCovariance(0.002, 0.01));
+  frame.world_covariance =
+      CovarianceOfCamera(frame.cam_from_world, IsotropicCovariance(0.004, 0.03));
+  frame.cam_from_odometry = Rigid3(turned, {0.0, 5.0, 0.0}).Inverse();
+  frame.odometry_covariance =
+      CovarianceOfCamera(frame.cam_from_odometry, IsotropicCovariance(0.008, 0.07));
   return frame;
 }
 
@@ -36,12 +41,20 @@ TEST(StreamedPose, WritesTheCameraInTheWorld) {
   EXPECT_NEAR(json["orientation"][1].get<double>(), std::sqrt(0.5), 1e-12);
   EXPECT_NEAR(json["sigma_rotation"][0].get<double>(), 0.002, 1e-9);
   EXPECT_NEAR(json["sigma_position"][2].get<double>(), 0.01, 1e-9);
+  EXPECT_NEAR(json["world_sigma_rotation"][1].get<double>(), 0.004, 1e-9);
+  EXPECT_NEAR(json["world_sigma_position"][0].get<double>(), 0.03, 1e-9);
+  const auto& odometry = json["odometry"];
+  EXPECT_NEAR(odometry["position"][1].get<double>(), 5.0, 1e-12);
+  EXPECT_NEAR(odometry["sigma_rotation"][0].get<double>(), 0.008, 1e-9);
+  EXPECT_NEAR(odometry["sigma_position"][2].get<double>(), 0.07, 1e-9);
   EXPECT_FALSE(json.contains("world_changed"));
 }
 
 TEST(StreamedPose, SaysWhatIsNotKnown) {
   FrameResult frame = Frame();
   frame.covariance.reset();
+  frame.world_covariance.reset();
+  frame.odometry_covariance.reset();
   EXPECT_THAT(FormatStreamedPose(frame, StreamedPoseForm::kText),
               testing::HasSubstr(" nan nan nan nan nan nan weak 0\n"));
   EXPECT_THAT(FormatStreamedPose(frame, StreamedPoseForm::kJson),

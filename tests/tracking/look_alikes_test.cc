@@ -50,7 +50,7 @@ class LookAlikesTest : public ::testing::Test {
   }
   // Whether the frame is certain where it was found, if it had been taken for `x` before.
   bool AreExcluded(double x) {
-    look_alikes_.Add(tracked_, snapshot_.map, inactive_.map, FoundAt(x));
+    look_alikes_.Add(tracked_, snapshot_, inactive_.map, FoundAt(x));
     return look_alikes_.AreExcluded({}, tracked_, snapshot_, inactive_.map, found_);
   }
 

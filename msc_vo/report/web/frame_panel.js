@@ -80,6 +80,8 @@ class FramePanel {
     const {model} = this;
     const frame = model.current;
     const value = (name, component) => model.value(name, frame, component);
+    const sigma = (index) => `${formatNumber(value("sigma", index), 3)} deg, ` +
+        `${formatNumber(1000 * value("sigma", index + 1), 1)} mm`;
     const rows = [
       ["Frame", `${frame}${value("keyframe") ? ", keyframe" : ""}`],
       ["Status", model.status(frame)],
@@ -87,6 +89,8 @@ class FramePanel {
       ["Inlier lines", `${value("counts", 3)} of ${value("counts", 1)}`],
       ["Sigma of rotation", `${formatNumber(value("sigma", 0), 3)} deg`],
       ["Sigma of translation", `${formatNumber(1000 * value("sigma", 1), 2)} mm`],
+      ["Sigma in the world", sigma(2)],
+      ["Sigma of odometry", sigma(4)],
     ];
     // All frames of a run have the same rows, so that the page does not move.
     if (model.groundTruth.length > 0) {

@@ -14,7 +14,9 @@ const FRAME_COLUMNS = [
   ["keyframe", Uint8Array, 1],
   ["submap", Uint16Array, 1],  // number of the submap that the pose refers to, or NO_SUBMAP
   ["counts", Uint16Array, 4],  // points, lines, inlier points, inlier lines
-  ["sigma", Float32Array, 2],  // rotation in degrees, translation in metres; NaN: no estimate
+  // Rotation in degrees, translation in metres: of the pose in the map nearby, in the world, and by
+  // odometry; NaN: no estimate.
+  ["sigma", Float32Array, 6],
   ["error", Float32Array, 1],  // metres; NaN: no ground truth
   ["stage_ms", Float32Array, 0],
   ["tracking_ms", Float32Array, 1],
