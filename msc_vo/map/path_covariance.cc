@@ -28,6 +28,10 @@ constexpr double kSystematicRotationSigma = DegreesToRadians(0.05);  // radians
 
 }  // namespace
 
+PoseCovariance SystematicCovariance(double length) {
+  return IsotropicCovariance(kSystematicRotationSigma * length, kSystematicSigma * length);
+}
+
 void PathDrift::AddStep(const Rigid3& base_from_cam, const PoseCovariance& covariance,
                         double length) {
   steps_ += TransportCovariance(base_from_cam, kStepScale * covariance);
@@ -35,12 +39,10 @@ void PathDrift::AddStep(const Rigid3& base_from_cam, const PoseCovariance& covar
 }
 
 PoseCovariance PathDrift::At(const Rigid3& cam_from_base, double length) const {
-  const double sum = length_ + length;
-  return TransportCovariance(cam_from_base, steps_) +
-         IsotropicCovariance(kSystematicRotationSigma * sum, kSystematicSigma * sum);
+  return StepsAt(cam_from_base) + SystematicCovariance(length_ + length);
 }
 
-PoseCovariance PathCovariance(const Map& map, KeyframeId a, KeyframeId b) {
+PathDrift DriftBetween(const Map& map, KeyframeId a, KeyframeId b) {
   const Rigid3 b_from_world = map.CamFromWorld(b);
   const KeyframeId first = std::min(a, b), last = std::max(a, b);
   Rigid3 before_from_world = map.CamFromWorld(first);
@@ -53,7 +55,7 @@ PoseCovariance PathCovariance(const Map& map, KeyframeId a, KeyframeId b) {
     before_from_world = step_from_world;
     drift.AddStep(b_from_world * step_from_world.Inverse(), *step, length);
   }
-  return drift.At(Rigid3());
+  return drift;
 }
 
 PathCovariances::PathCovariances(const Map& map, const std::vector<PoseGraphEdge>& loops,
@@ -129,12 +131,17 @@ PoseCovariance PathCovariances::OfRoot(KeyframeId keyframe) const {
   return Find(keyframe)->drift.At(Rigid3());
 }
 
-bool IsPossibleDrift(const Rigid3& by_path, const Rigid3& measured,
-                     const PoseCovariance& covariance) {
+double SquaredDriftError(const Rigid3& by_path, const Rigid3& measured,
+                         const PoseCovariance& covariance) {
   const Rigid3 error = by_path * measured.Inverse();
   Eigen::Matrix<double, 6, 1> tangent;
   tangent << LogSO3(error.rotation()), error.translation();
-  return tangent.dot(covariance.ldlt().solve(tangent)) < kOutlierChiSquare[6];
+  return tangent.dot(covariance.ldlt().solve(tangent));
+}
+
+bool IsPossibleDrift(const Rigid3& by_path, const Rigid3& measured,
+                     const PoseCovariance& covariance) {
+  return SquaredDriftError(by_path, measured, covariance) < kOutlierChiSquare[6];
 }
 
 }  // namespace msc_vo

@@ -13,6 +13,10 @@
 
 namespace msc_vo {
 
+/// The systematic part of the drift: what errors of the calibration and of the depth sensor, which
+/// are the same in every step, add to a path of `length` metres. Camera frame.
+PoseCovariance SystematicCovariance(double length);
+
 /// Drift of the odometry along a path, as a covariance: each step adds the error of a tracked pose,
 /// and each metre that of the calibration and of the depth sensor. Steps are summed in a fixed
 /// frame, the base.
@@ -28,6 +32,12 @@ class PathDrift {
   /// Covariance of the pose of a camera relative to the begin of the path, in the frame of the
   /// camera, that is `length` metres behind the last step.
   PoseCovariance At(const Rigid3& cam_from_base, double length = 0.0) const;
+  /// The same without the systematic part.
+  PoseCovariance StepsAt(const Rigid3& cam_from_base) const {
+    return TransportCovariance(cam_from_base, steps_);
+  }
+  /// Of the path, metres.
+  double length() const { return length_; }
 
   /// Lists the state for a checkpoint.
   template <typename Archive>
@@ -41,12 +51,9 @@ class PathDrift {
   double length_ = 0.0;                            // metres
 };
 
-/// How uncertain the motion between two keyframes is, as odometry has measured it along the whole
-/// path between them, in the order of keyframes.
-///
-/// Returns the covariance of the pose of keyframe `b` relative to `a` in the frame of `b`: of the
-/// camera itself, as by CameraCovariance(). Both are or were in the map, in any order.
-PoseCovariance PathCovariance(const Map& map, KeyframeId a, KeyframeId b);
+/// The drift of the odometry from keyframe `a` to `b`, along the whole path between them in the
+/// order of keyframes; base: `b`. Both are or were in the map, in any order.
+PathDrift DriftBetween(const Map& map, KeyframeId a, KeyframeId b);
 
 /// How uncertain the poses of all keyframes are relative to one of them, the root. The steps of
 /// odometry and the closed loops link the keyframes to a graph; an edge of a loop is a step between
@@ -64,6 +71,8 @@ class PathCovariances {
   PoseCovariance Of(KeyframeId keyframe, const Rigid3& cam_from_keyframe = Rigid3()) const;
   /// Covariance of the pose of the root relative to a keyframe, in the frame of the root.
   PoseCovariance OfRoot(KeyframeId keyframe) const;
+  /// The drift along the path from the root to a keyframe; base: the root.
+  const PathDrift& DriftTo(KeyframeId keyframe) const { return Find(keyframe)->drift; }
 
  private:
   struct Node {
@@ -86,9 +95,12 @@ class PathCovariances {
   std::vector<Node> nodes_;  // by ascending id
 };
 
-/// Whether two poses of a camera, `by_path` by odometry and `measured` by other means, differ by no
-/// more than their errors, by a chi-square test. `covariance`: the sum of that of the path and of
-/// all others, in the camera frame.
+/// Squared norm of the whitened difference, six rows, of two poses of a camera: `by_path` by
+/// odometry and `measured` by other means. `covariance`: the sum of that of the path and of all
+/// others, in the camera frame.
+double SquaredDriftError(const Rigid3& by_path, const Rigid3& measured,
+                         const PoseCovariance& covariance);
+/// Whether they differ by no more than their errors, by a chi-square test.
 bool IsPossibleDrift(const Rigid3& by_path, const Rigid3& measured,
                      const PoseCovariance& covariance);
 

@@ -7,7 +7,7 @@
 
 #include "msc_vo/factors/chi_square.h"
 #include "msc_vo/map/map_alignment.h"
-#include "msc_vo/map/path_covariance.h"
+#include "msc_vo/mapping/keyframe_graph.h"
 #include "msc_vo/mapping/map_correction.h"
 
 namespace msc_vo {
@@ -16,15 +16,9 @@ namespace {
 
 // Keyframes after which a visit is forgotten: the camera has left the place.
 constexpr KeyframeId kMaxAge = 10;
-// Landmarks that two keyframes share if they hold the map together.
-constexpr int kMinShared = 20;
-// Standard deviations of an edge of the graph beyond its covariance: those of a pose in a window,
-// of which the covariance of coinciding keyframes has nothing. A milliradian is a millimetre at 1
-// m.
-constexpr double kEdgeSigma = 0.001;          // metres
-constexpr double kEdgeRotationSigma = 0.001;  // radians
 
-PoseCovariance EdgeCovariance() { return IsotropicCovariance(kEdgeRotationSigma, kEdgeSigma); }
+// Squared norm of a whitened error of six rows that is no larger than expected.
+constexpr double kExpectedChiSquare = 6.0;
 
 }  // namespace
 
@@ -34,7 +28,7 @@ void LoopCloser::AddKeyframe(const Map& map, KeyframeId keyframe, KeyframeId ref
   const KeyframeId last = loop_edges_.back().to;
   if (reference >= last || keyframe < last + kInterval || !map.KnowsKeyframe(last)) return;
   const Rigid3 to_from_from = map.CamFromWorld(keyframe) * map.CamFromWorld(reference).Inverse();
-  const PoseCovariance camera = *map.StepCovariance(keyframe) + EdgeCovariance();
+  const PoseCovariance camera = *map.StepCovariance(keyframe) + CommonViewCovariance();
   loop_edges_.push_back(
       {reference, keyframe, to_from_from, CovarianceOfCamera(to_from_from, camera)});
 }
@@ -63,56 +57,25 @@ PoseGraphEdge LoopCloser::EdgeOf(const Map& map, const KeyframeRevisit& visit) c
   const Revisit& revisit = visit.revisit;
   const Rigid3 cam_from_world = revisit.cam_from_reference * map.CamFromWorld(revisit.reference);
   const PoseCovariance camera =
-      CameraCovariance(cam_from_world, revisit.covariance) + EdgeCovariance();
+      CameraCovariance(cam_from_world, revisit.covariance) + CommonViewCovariance();
   return {revisit.reference, visit.keyframe, revisit.cam_from_reference,
           CovarianceOfCamera(revisit.cam_from_reference, camera)};
 }
 
-bool LoopCloser::IsPossible(const Map& map, const KeyframeRevisit& visit) const {
-  const PoseGraphEdge edge = EdgeOf(map, visit);
+double LoopCloser::SquaredError(const Map& map, const PoseGraphEdge& edge, const PathDrift& path,
+                                double share) const {
   const Rigid3 by_path = map.CamFromWorld(edge.to) * map.CamFromWorld(edge.from).Inverse();
-  return IsPossibleDrift(by_path, edge.to_from_from,
-                         PathCovariances(map, loop_edges_, edge.to).OfRoot(edge.from) +
-                             CameraCovariance(edge.to_from_from, edge.covariance));
+  return SquaredDriftError(by_path, edge.to_from_from,
+                           path.StepsAt(Rigid3()) + SystematicCovariance(share * path.length()) +
+                               CameraCovariance(edge.to_from_from, edge.covariance));
 }
 
-PoseGraph LoopCloser::MakeGraph(const Map& map) const {
-  PoseGraph graph;
-  const auto add = [&](KeyframeId from, KeyframeId to, const PoseCovariance& camera) {
-    const Rigid3 to_from_from = map.CamFromWorld(to) * map.CamFromWorld(from).Inverse();
-    graph.edges.push_back({from, to, to_from_from, CovarianceOfCamera(to_from_from, camera)});
-  };
-  KeyframeId last = kNoId;
-  for (const auto& [id, keyframe] : map.keyframes()) {
-    graph.poses[id] = keyframe.cam_from_world;
-    if (last != kNoId) add(last, id, PathCovariance(map, last, id) + EdgeCovariance());
-    for (const Map::Covisible& other : map.FindCovisible(id)) {
-      if (other.num_shared < kMinShared) break;
-      if (other.keyframe >= last) continue;  // each pair once, and none of the path twice
-      const Rigid3 to_from_from =
-          keyframe.cam_from_world * map.CamFromWorld(other.keyframe).Inverse();
-      add(other.keyframe, id,
-          TransportCovariance(to_from_from, *map.StepCovariance(other.keyframe)) +
-              *map.StepCovariance(id) + EdgeCovariance());
-    }
-    last = id;
+double LoopCloser::SystematicShare(const Map& map, const PoseGraphEdge& edge,
+                                   const PathDrift& path) const {
+  for (const double share : {0.0, 0.125, 0.25, 0.5}) {
+    if (SquaredError(map, edge, path, share) <= kExpectedChiSquare) return share;
   }
-  // A keyframe that was culled is represented by the one before it, unless that is of another
-  // session and may be anywhere. The map does not know those of other maps, nor those that were
-  // culled before it was saved.
-  const auto represent = [&map](KeyframeId id) {
-    const auto* entry = map.KnowsKeyframe(id) ? map.keyframes().FindUpTo(id) : nullptr;
-    const bool is_near =
-        entry != nullptr && map.IsOfEarlierSession(entry->first) == map.IsOfEarlierSession(id);
-    return is_near ? entry : nullptr;
-  };
-  for (const PoseGraphEdge& edge : loop_edges_) {
-    // With the relative pose after later bundle adjustment.
-    const auto *from = represent(edge.from), *to = represent(edge.to);
-    if (from == nullptr || to == nullptr || from->first == to->first) continue;
-    add(from->first, to->first, CameraCovariance(edge.to_from_from, edge.covariance));
-  }
-  return graph;
+  return 1.0;
 }
 
 std::optional<LoopClosure> LoopCloser::TryClose(Map* map) {
@@ -129,12 +92,17 @@ std::optional<LoopClosure> LoopCloser::TryClose(Map* map) {
     ++num_refused_;
     return std::nullopt;
   };
-  PoseGraph graph = MakeGraph(*map);
   std::vector<PoseGraphEdge> new_edges;
+  double systematic_length = 0.0;
   for (const KeyframeRevisit& visit : visits) {
-    if (!IsPossible(*map, visit)) return refuse();
-    new_edges.push_back(EdgeOf(*map, visit));
+    const PoseGraphEdge edge = EdgeOf(*map, visit);
+    const PathDrift path = PathCovariances(*map, loop_edges_, edge.to).DriftTo(edge.from);
+    if (SquaredError(*map, edge, path, 1.0) >= kOutlierChiSquare[6]) return refuse();
+    new_edges.push_back(edge);
+    const double share = SystematicShare(*map, edge, path);
+    systematic_length = std::max(systematic_length, share * share * path.length());
   }
+  PoseGraph graph = MakeKeyframeGraph(*map, loop_edges_, systematic_length);
   graph.edges.insert(graph.edges.end(), new_edges.begin(), new_edges.end());
   const std::vector<double> squared_errors = OptimizePoseGraph(&graph);
   if (squared_errors.empty() ||

@@ -8,8 +8,8 @@
 
 #include "msc_vo/geometry/rigid3.h"
 #include "msc_vo/map/map.h"
+#include "msc_vo/map/path_covariance.h"
 #include "msc_vo/mapping/keyframe_revisit.h"
-#include "msc_vo/pose_estimation/pose_graph.h"
 
 namespace msc_vo {
 
@@ -71,10 +71,13 @@ class LoopCloser {
   // The recent visits that agree on a correction; empty if too few do.
   std::vector<KeyframeRevisit> AgreeingVisits(const Map& map) const;
   PoseGraphEdge EdgeOf(const Map& map, const KeyframeRevisit& visit) const;
-  // Whether the drift of the path can be as large as the correction by a visit.
-  bool IsPossible(const Map& map, const KeyframeRevisit& visit) const;
-  // The keyframes of the map, linked by odometry, by shared landmarks, and by the loops so far.
-  PoseGraph MakeGraph(const Map& map) const;
+  // Squared norm of the whitened error of the path between the keyframes of a loop, given `share`
+  // of its systematic drift. `path`: base: `edge.to`.
+  double SquaredError(const Map& map, const PoseGraphEdge& edge, const PathDrift& path,
+                      double share) const;
+  // The systematic drift that is needed to explain a loop, 0 to 1 of what is possible: cameras that
+  // are calibrated well have none.
+  double SystematicShare(const Map& map, const PoseGraphEdge& edge, const PathDrift& path) const;
 
   std::vector<KeyframeRevisit> visits_;
   std::vector<PoseGraphEdge> loop_edges_;  // beside those along the path

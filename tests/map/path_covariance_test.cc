@@ -15,6 +15,10 @@
 namespace msc_vo {
 namespace {
 
+PoseCovariance PathCovariance(const Map& map, KeyframeId a, KeyframeId b) {
+  return DriftBetween(map, a, b).At(Rigid3());
+}
+
 constexpr double kRotationVariance = 1e-6, kVariance = 1e-4;  // of a step, radians^2 and m^2
 
 // Keyframes at 1 m from each other on a straight line along x, which all look along z.

@@ -133,6 +133,38 @@ TEST_F(LoopCloserTest, LinksKeyframesToThePartsOfTheMapThatTheyAreTrackedIn) {
   EXPECT_EQ(closer_.edges().size(), 7u);
 }
 
+// The error of a calibration is the same in every step. Keyframes that share landmarks must not
+// hold the path for more certain than that.
+TEST_F(LoopCloserTest, CorrectsSystematicDriftOfKeyframesThatShareLandmarks) {
+  constexpr int kShared = 20, kNumObservers = 6;
+  const Rigid3 drift(ExpSO3({0.0, 0.0006, 0.0}), {0.001, 0.0, 0.0});
+  auto frame = std::make_shared<Frame>();
+  frame->points.resize(kShared * kNumObservers);
+  Map map;
+  Rigid3 pose = Truth(0);
+  for (int i = 0; i < kNumKeyframes; ++i) {
+    if (i > 0) pose = drift * Truth(i) * Truth(i - 1).Inverse() * pose;
+    map.AddKeyframe(frame, pose);
+    map.SetStepCovariance(i, IsotropicCovariance(1e-4, 1e-4));
+  }
+  for (int i = 0; i < kNumKeyframes; ++i) {
+    for (int k = 0; k < kShared; ++k) {
+      const LandmarkId id = map.Add<PointLandmark>(i, k, {0.0, 0.0, 0.0});
+      for (int j = 1; j < kNumObservers && i + j < kNumKeyframes; ++j) {
+        map.Observe<PointLandmark>(id, i + j, kShared * j + k);
+      }
+    }
+  }
+  map_ = map.Share();
+  ASSERT_GE(map_.FindCovisible(20).size(), 10u);
+  const double before = Error(38);
+  EXPECT_GT(before, 0.03);
+  for (const int i : {36, 37, 38}) Revisit(i, i - kNumInRound, 0.0);
+  ASSERT_TRUE(closer_.TryClose(&map_));
+  EXPECT_LT(Error(38), 0.2 * before);
+  EXPECT_LT(Error(18), before);
+}
+
 TEST_F(LoopCloserTest, RefusesWhatDriftCannotExplain) {
   const Map before = map_.Share();
   for (const int i : {36, 37, 38}) {

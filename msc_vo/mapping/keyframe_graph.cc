@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/mapping/keyframe_graph.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "msc_vo/map/path_covariance.h"
+
+namespace msc_vo {
+
+namespace {
+
+// Landmarks that two keyframes share if they hold the map together.
+constexpr int kMinShared = 20;
+// Standard deviations of a pose in a window. A milliradian is a millimetre at 1 m.
+constexpr double kSigma = 0.001;          // metres
+constexpr double kRotationSigma = 0.001;  // radians
+
+Rigid3 RelativePose(const Map& map, KeyframeId a, KeyframeId b) {
+  return map.CamFromWorld(b) * map.CamFromWorld(a).Inverse();
+}
+
+// A step of odometry, or two keyframes that share landmarks.
+struct Link {
+  size_t a = 0, b = 0;  // positions of the keyframes in the map, a < b
+  Rigid3 b_from_a;
+  PoseCovariance covariance;  // of the camera of b
+};
+
+// The links of a map, and how many of them stand beside each other.
+class KeyframeLinks {
+ public:
+  KeyframeLinks(const Map& map, double systematic_length)
+      : map_(map), systematic_length_(systematic_length) {
+    for (const auto& [id, keyframe] : map.keyframes()) {
+      positions_[id] = ids_.size();
+      ids_.push_back(id);
+      if (ids_.size() > 1) AddStep(ids_[ids_.size() - 2], id);
+      for (const Map::Covisible& other : map.FindCovisible(id)) {
+        if (other.num_shared < kMinShared) break;
+        if (positions_.count(other.keyframe) > 0) AddPair(other.keyframe, id);
+      }
+    }
+  }
+
+  std::vector<PoseGraphEdge> Edges() const {
+    const std::vector<double> sums = CountBesideEachOther();
+    std::vector<PoseGraphEdge> edges;
+    for (const Link& link : links_) {
+      const double num_beside =
+          (sums[link.b] - sums[link.a]) / static_cast<double>(link.b - link.a);
+      edges.push_back(
+          {ids_[link.a], ids_[link.b], link.b_from_a,
+           CovarianceOfCamera(link.b_from_a, std::max(1.0, num_beside) * link.covariance)});
+    }
+    return edges;
+  }
+
+ private:
+  void AddStep(KeyframeId a, KeyframeId b) {
+    const PathDrift drift = DriftBetween(map_, a, b);
+    path_lengths_.push_back(path_lengths_.back() + drift.length());
+    Add(a, b, drift);
+  }
+  void AddPair(KeyframeId a, KeyframeId b) {
+    if (positions_[b] == positions_[a] + 1) return;  // a step
+    const Rigid3 b_from_a = RelativePose(map_, a, b);
+    PathDrift drift;
+    drift.AddError(b_from_a, *map_.StepCovariance(a));
+    drift.AddStep(Rigid3(), *map_.StepCovariance(b), b_from_a.translation().norm());
+    Add(a, b, drift);
+  }
+  // `drift`: base: `b`.
+  void Add(KeyframeId a, KeyframeId b, const PathDrift& drift) {
+    links_.push_back({positions_[a], positions_[b], RelativePose(map_, a, b),
+                      drift.StepsAt(Rigid3()) + CommonViewCovariance() +
+                          SystematicCovariance(std::sqrt(drift.length() * systematic_length_))});
+  }
+
+  // For every keyframe, the sum over the steps before it of the number of links beside the step.
+  // A link counts as far as it is the path between its keyframes: one that closes a loop has errors
+  // of its own.
+  std::vector<double> CountBesideEachOther() const {
+    std::vector<double> sums(ids_.size() + 1, 0.0);
+    for (const Link& link : links_) {
+      const double path = path_lengths_[link.b] - path_lengths_[link.a];
+      const double share = path > 0.0 ? link.b_from_a.translation().norm() / path : 1.0;
+      sums[link.a + 1] += share;
+      sums[link.b + 1] -= share;
+    }
+    for (int i = 0; i < 2; ++i) std::partial_sum(sums.begin(), sums.end(), sums.begin());
+    return sums;
+  }
+
+  const Map& map_;
+  double systematic_length_;
+  std::vector<KeyframeId> ids_;
+  std::map<KeyframeId, size_t> positions_;
+  std::vector<double> path_lengths_ = {0.0};  // metres, up to each keyframe
+  std::vector<Link> links_;
+};
+
+// The keyframe that stands for another one in the graph: itself, or the one before it if it was
+// culled, unless that is of another session and may be anywhere. The map does not know those of
+// other maps, nor those that were culled before it was saved: kNoId.
+KeyframeId Representative(const Map& map, KeyframeId id) {
+  const auto* entry = map.KnowsKeyframe(id) ? map.keyframes().FindUpTo(id) : nullptr;
+  const bool is_near =
+      entry != nullptr && map.IsOfEarlierSession(entry->first) == map.IsOfEarlierSession(id);
+  return is_near ? entry->first : kNoId;
+}
+
+}  // namespace
+
+PoseCovariance CommonViewCovariance() { return IsotropicCovariance(kRotationSigma, kSigma); }
+
+PoseGraph MakeKeyframeGraph(const Map& map, const std::vector<PoseGraphEdge>& loops,
+                            double systematic_length) {
+  PoseGraph graph;
+  for (const auto& [id, keyframe] : map.keyframes()) graph.poses[id] = keyframe.cam_from_world;
+  graph.edges = KeyframeLinks(map, systematic_length).Edges();
+  for (const PoseGraphEdge& loop : loops) {
+    const KeyframeId from = Representative(map, loop.from), to = Representative(map, loop.to);
+    if (from == kNoId || to == kNoId || from == to) continue;
+    // With the relative pose after later bundle adjustment.
+    const Rigid3 to_from_from = RelativePose(map, from, to);
+    graph.edges.push_back(
+        {from, to, to_from_from,
+         CovarianceOfCamera(to_from_from, CameraCovariance(loop.to_from_from, loop.covariance))});
+  }
+  return graph;
+}
+
+}  // namespace msc_vo
