@@ -28,6 +28,8 @@ class PathDrift {
   /// Covariance of the pose of a camera relative to the begin of the path, in the frame of the
   /// camera, that is `length` metres behind the last step.
   PoseCovariance At(const Rigid3& cam_from_base, double length = 0.0) const;
+  /// Trace of the covariance in the base frame.
+  double Trace() const;
 
   /// Lists the state for a checkpoint.
   template <typename Archive>
