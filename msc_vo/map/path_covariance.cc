@@ -42,6 +42,12 @@ PoseCovariance PathDrift::At(const Rigid3& cam_from_base, double length) const {
   return StepsAt(cam_from_base) + SystematicCovariance(length_ + length);
 }
 
+double PathDrift::Trace() const {
+  constexpr double kPerSquaredMetre = 3.0 * (kSystematicRotationSigma * kSystematicRotationSigma +
+                                             kSystematicSigma * kSystematicSigma);
+  return steps_.trace() + kPerSquaredMetre * length_ * length_;
+}
+
 PathDrift DriftBetween(const Map& map, KeyframeId a, KeyframeId b) {
   const Rigid3 b_from_world = map.CamFromWorld(b);
   const KeyframeId first = std::min(a, b), last = std::max(a, b);
@@ -107,12 +113,13 @@ void PathCovariances::FindPaths(const std::vector<Edge>& edges, size_t root) {
     if (cost > nodes_[index].cost) continue;  // found on a better path since
     for (const Edge* edge : edges_of[index]) {
       Node& next = nodes_[edge->from == index ? edge->to : edge->from];
+      if (next.cost <= cost) continue;  // its path is final
       const Rigid3& root_from_to = nodes_[edge->to].root_from_cam;
       const double length =
           (root_from_to.translation() - nodes_[edge->from].root_from_cam.translation()).norm();
       PathDrift drift = nodes_[index].drift;
       drift.AddStep(root_from_to, edge->covariance, length);
-      const double next_cost = drift.At(Rigid3()).trace();
+      const double next_cost = drift.Trace();
       if (next_cost >= next.cost) continue;
       next.drift = drift;
       next.cost = next_cost;

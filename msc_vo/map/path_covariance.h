@@ -38,6 +38,8 @@ class PathDrift {
   }
   /// Of the path, metres.
   double length() const { return length_; }
+  /// Trace of the covariance in the base frame.
+  double Trace() const;
 
   /// Lists the state for a checkpoint.
   template <typename Archive>
