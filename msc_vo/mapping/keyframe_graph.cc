@@ -28,7 +28,7 @@ Rigid3 RelativePose(const Map& map, KeyframeId a, KeyframeId b) {
 struct Link {
   size_t a = 0, b = 0;  // positions of the keyframes in the map, a < b
   Rigid3 b_from_a;
-  PoseCovariance covariance;  // of the camera of b
+  PoseCovariance drift;  // of the camera of b
 };
 
 // The links of a map, and how many of them stand beside each other.
@@ -55,7 +55,10 @@ class KeyframeLinks {
           (sums[link.b] - sums[link.a]) / static_cast<double>(link.b - link.a);
       edges.push_back(
           {ids_[link.a], ids_[link.b], link.b_from_a,
-           CovarianceOfCamera(link.b_from_a, std::max(1.0, num_beside) * link.covariance)});
+           CovarianceOfCamera(
+               link.b_from_a,
+               (systematic_length_ > 0.0 ? std::max(1.0, num_beside) : 1.0) * link.drift +
+                   CommonViewCovariance())});
     }
     return edges;
   }
@@ -77,7 +80,7 @@ class KeyframeLinks {
   // `drift`: base: `b`.
   void Add(KeyframeId a, KeyframeId b, const PathDrift& drift) {
     links_.push_back({positions_[a], positions_[b], RelativePose(map_, a, b),
-                      drift.StepsAt(Rigid3()) + CommonViewCovariance() +
+                      drift.StepsAt(Rigid3()) +
                           SystematicCovariance(std::sqrt(drift.length() * systematic_length_))});
   }
 

@@ -22,8 +22,9 @@ PoseCovariance CommonViewCovariance();
 /// The graph drifts as odometry does. Its edges have independent errors, but the systematic error
 /// of a path is common to all of its steps. To let a path of L metres drift by s times
 /// SystematicCovariance(L) as a whole, a step of l metres gets the variance of s^2 l L metres^2:
-/// `systematic_length` is s^2 L. Steps and pairs beside each other repeat one measurement: their
-/// covariances are multiplied by the number of them.
+/// `systematic_length` is s^2 L. Steps and pairs beside each other then repeat one measurement:
+/// this part of their covariances is multiplied by the number of them. 0: all errors are
+/// independent, as those of a camera that is calibrated well.
 PoseGraph MakeKeyframeGraph(const Map& map, const std::vector<PoseGraphEdge>& loops,
                             double systematic_length);
 

@@ -4,6 +4,7 @@
 #include "msc_vo/mapping/loop_closer.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "msc_vo/factors/chi_square.h"
 #include "msc_vo/map/map_alignment.h"
@@ -72,10 +73,22 @@ double LoopCloser::SquaredError(const Map& map, const PoseGraphEdge& edge, const
 
 double LoopCloser::SystematicShare(const Map& map, const PoseGraphEdge& edge,
                                    const PathDrift& path) const {
-  for (const double share : {0.0, 0.125, 0.25, 0.5}) {
+  for (const double share : {0.125, 0.25, 0.5}) {
     if (SquaredError(map, edge, path, share) <= kExpectedChiSquare) return share;
   }
   return 1.0;
+}
+
+std::optional<PoseGraph> LoopCloser::Correct(const Map& map,
+                                             const std::vector<PoseGraphEdge>& new_edges,
+                                             double systematic_length) const {
+  PoseGraph graph = MakeKeyframeGraph(map, loop_edges_, systematic_length);
+  graph.edges.insert(graph.edges.end(), new_edges.begin(), new_edges.end());
+  const std::vector<double> squared_errors = OptimizePoseGraph(&graph);
+  const bool is_consistent =
+      !squared_errors.empty() &&
+      *std::max_element(squared_errors.begin(), squared_errors.end()) <= kOutlierChiSquare[6];
+  return is_consistent ? std::optional<PoseGraph>(std::move(graph)) : std::nullopt;
 }
 
 std::optional<LoopClosure> LoopCloser::TryClose(Map* map) {
@@ -102,16 +115,12 @@ std::optional<LoopClosure> LoopCloser::TryClose(Map* map) {
     const double share = SystematicShare(*map, edge, path);
     systematic_length = std::max(systematic_length, share * share * path.length());
   }
-  PoseGraph graph = MakeKeyframeGraph(*map, loop_edges_, systematic_length);
-  graph.edges.insert(graph.edges.end(), new_edges.begin(), new_edges.end());
-  const std::vector<double> squared_errors = OptimizePoseGraph(&graph);
-  if (squared_errors.empty() ||
-      *std::max_element(squared_errors.begin(), squared_errors.end()) > kOutlierChiSquare[6]) {
-    return refuse();
-  }
+  std::optional<PoseGraph> graph = Correct(*map, new_edges, 0.0);
+  if (!graph) graph = Correct(*map, new_edges, systematic_length);
+  if (!graph) return refuse();
   const KeyframeId newest = visits.back().keyframe;
   const Rigid3 old_cam_from_world = map->CamFromWorld(newest);
-  MoveKeyframes(graph.poses, map);
+  MoveKeyframes(graph->poses, map);
   for (const KeyframeRevisit& visit : visits) {
     MergeMatches(visit.keyframe, visit.revisit.matches, map);
   }

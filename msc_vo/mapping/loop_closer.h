@@ -10,6 +10,7 @@
 #include "msc_vo/map/map.h"
 #include "msc_vo/map/path_covariance.h"
 #include "msc_vo/mapping/keyframe_revisit.h"
+#include "msc_vo/pose_estimation/pose_graph.h"
 
 namespace msc_vo {
 
@@ -75,8 +76,11 @@ class LoopCloser {
   // of its systematic drift. `path`: base: `edge.to`.
   double SquaredError(const Map& map, const PoseGraphEdge& edge, const PathDrift& path,
                       double share) const;
-  // The systematic drift that is needed to explain a loop, 0 to 1 of what is possible: cameras that
-  // are calibrated well have none.
+  // The pose graph of the map with further edges, solved; std::nullopt if an edge contradicts.
+  // `systematic_length`: see MakeKeyframeGraph().
+  std::optional<PoseGraph> Correct(const Map& map, const std::vector<PoseGraphEdge>& new_edges,
+                                   double systematic_length) const;
+  // The systematic drift that is needed to explain a loop, 1/8 to 1 of what is possible.
   double SystematicShare(const Map& map, const PoseGraphEdge& edge, const PathDrift& path) const;
 
   std::vector<KeyframeRevisit> visits_;
