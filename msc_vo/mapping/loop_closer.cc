@@ -116,8 +116,10 @@ std::optional<LoopClosure> LoopCloser::TryClose(Map* map) {
     systematic_length = std::max(systematic_length, share * share * path.length());
   }
   std::optional<PoseGraph> graph = Correct(*map, new_edges, 0.0);
-  if (!graph) graph = Correct(*map, new_edges, systematic_length);
+  const bool is_first = !std::exchange(is_contradicted_, !graph);
+  if (!graph && !is_first) graph = Correct(*map, new_edges, systematic_length);
   if (!graph) return refuse();
+  is_contradicted_ = false;
   const KeyframeId newest = visits.back().keyframe;
   const Rigid3 old_cam_from_world = map->CamFromWorld(newest);
   MoveKeyframes(graph->poses, map);

@@ -59,13 +59,16 @@ class LoopCloser {
   int num_refused() const { return num_refused_; }
 
   /// Forgets the revisits: another map begins, or two are joined.
-  void Clear() { visits_.clear(); }
+  void Clear() {
+    visits_.clear();
+    is_contradicted_ = false;
+  }
 
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [visits, edges, closed, refused] = *this;  // all members, or it does not compile
-    archive(visits, edges, closed, refused);
+    auto& [visits, edges, closed, refused, contradicted] = *this;  // all members
+    archive(visits, edges, closed, refused, contradicted);
   }
 
  private:
@@ -87,6 +90,9 @@ class LoopCloser {
   std::vector<PoseGraphEdge> loop_edges_;  // beside those along the path
   int num_closed_ = 0;
   int num_refused_ = 0;
+  // The last loop contradicted the graph with independent errors. It may have been found from
+  // afar: systematic errors are the explanation if the next one does, too.
+  bool is_contradicted_ = false;
 };
 
 }  // namespace msc_vo

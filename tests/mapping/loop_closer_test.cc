@@ -159,7 +159,10 @@ TEST_F(LoopCloserTest, CorrectsSystematicDriftOfKeyframesThatShareLandmarks) {
   ASSERT_GE(map_.FindCovisible(20).size(), 10u);
   const double before = Error(38);
   EXPECT_GT(before, 0.03);
+  // The first loop may be the one that errs.
   for (const int i : {36, 37, 38}) Revisit(i, i - kNumInRound, 0.0);
+  EXPECT_FALSE(closer_.TryClose(&map_));
+  for (const int i : {37, 38, 39}) Revisit(i, i - kNumInRound, 0.0);
   ASSERT_TRUE(closer_.TryClose(&map_));
   EXPECT_LT(Error(38), 0.2 * before);
   EXPECT_LT(Error(18), before);
