@@ -4,6 +4,7 @@
 #include "msc_vo/results/online_results.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <filesystem>
 
 #include "msc_vo/datasets/trajectory.h"
@@ -16,13 +17,14 @@ const char kUnfinishedTrajectoryComment[] =
 
 namespace {
 
-// Rows of the frames.csv that an unfinished run has left; 0 if there is none.
-int CountFrames(const std::string& trajectory, const std::string& frames) {
-  if (!FileProblem(trajectory).empty() || !FileProblem(frames).empty()) return 0;
-  if (ReadFile(trajectory).rfind(kUnfinishedTrajectoryComment, 0) != 0) return 0;
-  const std::string rows = ReadFile(frames);
-  const auto num_lines = std::count(rows.begin(), rows.end(), '\n');
-  return std::max(0, static_cast<int>(num_lines) - 1);
+// Rows of the frames.csv that a run has left: unfinished, or killed while it wrote its final
+// results; 0 if there is none.
+int CountFrames(const std::string& path) {
+  if (!FileProblem(path).empty()) return 0;
+  const std::string rows = ReadFile(path), header = FormatFramesCsv({});
+  if (rows.rfind(header, 0) != 0) return 0;
+  return static_cast<int>(
+      std::count(rows.begin() + static_cast<std::ptrdiff_t>(header.size()), rows.end(), '\n'));
 }
 
 // Appends `text` to a file that begins with `header`, and empties it.
@@ -55,8 +57,7 @@ void OnlineResults::Write() {
 void OnlineResults::Continue(const std::vector<FrameResult>& frames) {
   const std::filesystem::path folder = directory_;
   is_resumed_ = true;
-  num_frames_on_disk_ =
-      CountFrames((folder / "trajectory.txt").string(), (folder / "frames.csv").string());
+  num_frames_on_disk_ = CountFrames((folder / "frames.csv").string());
   for (const FrameResult& frame : frames) AddUnwritten(frame);
 }
 

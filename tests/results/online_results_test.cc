@@ -90,6 +90,22 @@ TEST_F(OnlineResultsTest, ReplacesFilesThatAreNotThoseOfTheResumedRun) {
   EXPECT_EQ(ReadTrajectory(Path("out/trajectory.txt")).size(), 1u);
 }
 
+// It was killed before it had written all final results and removed its checkpoint.
+TEST_F(OnlineResultsTest, KeepsFinalResultsUntilTheResumedRunHasAsMany) {
+  std::vector<FrameResult> frames;
+  for (int i = 0; i < 3; ++i) frames.push_back(Frame(1.0 + i, TrackingStatus::kTracked));
+  WriteText("out/trajectory.txt", "1 0 0 0 0 0 0 1\n");
+  WriteText("out/frames.csv", FormatFramesCsv(frames));
+  OnlineResults resumed(Path("out"), {"/data/room", "", ""});
+  resumed.Continue({frames[0]});
+  resumed.Add(frames[1]);
+  EXPECT_EQ(ReadFile(Path("out/trajectory.txt")), "1 0 0 0 0 0 0 1\n");
+  EXPECT_EQ(ReadFile(Path("out/frames.csv")), FormatFramesCsv(frames));
+  resumed.Add(frames[2]);
+  EXPECT_EQ(ReadFile(Path("out/frames.csv")), FormatFramesCsv(frames));
+  EXPECT_EQ(ReadTrajectory(Path("out/trajectory.txt")).size(), 3u);
+}
+
 TEST_F(OnlineResultsTest, WritesLaterWhatCouldNotBeWritten) {
   for (const char* blocked : {"out/trajectory.txt/entry", "out/frames.csv/entry"}) {
     WriteText(blocked, "");
