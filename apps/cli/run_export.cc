@@ -138,6 +138,12 @@ void AddMap(const std::string& folder, int world, McapRun* run) {
   if (std::filesystem::exists(planes)) run->planes = ReadColoredPolygonsPly(planes);
 }
 
+std::optional<PoseCovariance> InCameraFrame(const Rigid3& world_from_cam,
+                                            const std::optional<PoseCovariance>& covariance) {
+  if (!covariance) return std::nullopt;
+  return CameraCovariance(world_from_cam.Inverse(), *covariance);
+}
+
 void WriteMcap(const RunExport& arguments) {
   RequireMcapExport();
   RequireResults(arguments.run, arguments.format);
@@ -157,12 +163,8 @@ void WriteMcap(const RunExport& arguments) {
     frame.nanoseconds = 1000 * found->first;
     frame.world_from_cam = pose.world_from_cam;
     frame.odom_from_cam = found->second.odom_from_cam;
-    const auto of_camera = [](const Rigid3& pose, const std::optional<PoseCovariance>& covariance) {
-      return covariance ? std::make_optional(CameraCovariance(pose.Inverse(), *covariance))
-                        : std::nullopt;
-    };
-    frame.world_covariance = of_camera(frame.world_from_cam, found->second.world_covariance);
-    frame.odom_covariance = of_camera(frame.odom_from_cam, found->second.odometry_covariance);
+    frame.world_covariance = InCameraFrame(frame.world_from_cam, found->second.world_covariance);
+    frame.odom_covariance = InCameraFrame(frame.odom_from_cam, found->second.odometry_covariance);
     run.frames.push_back(std::move(frame));
   }
   AddMap(arguments.run, poses.front().world, &run);

@@ -34,7 +34,7 @@ ObjectId ObjectJournal::Find(const std::shared_ptr<const void>& object) const {
   const auto id = ids_.find(object.get());
   if (id == ids_.end()) return kNoObject;
   // The object may be at an address where another one was.
-  const std::weak_ptr<const void>& known = objects_.at(id->second).life;
+  const std::weak_ptr<const void>& known = objects_.at(id->second).owner;
   return known.owner_before(object) || object.owner_before(known) ? kNoObject : id->second;
 }
 

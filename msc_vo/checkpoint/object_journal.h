@@ -85,10 +85,10 @@ class ObjectJournal {
 
  private:
   struct Object {
-    const void* address = nullptr;   // null: it is known by its bytes
-    std::weak_ptr<const void> life;  // of what is at the address
-    uint64_t checksum = 0;           // of the bytes it is known by
-    uint64_t size = 0;               // bytes
+    const void* address = nullptr;    // null: it is known by its bytes
+    std::weak_ptr<const void> owner;  // expires when the object is destroyed
+    uint64_t checksum = 0;            // of the bytes it is known by
+    uint64_t size = 0;                // bytes
     std::vector<ObjectId> children;
   };
   struct LoadedObject {

@@ -42,11 +42,7 @@ PoseCovariance PathDrift::At(const Rigid3& cam_from_base, double length) const {
   return StepsAt(cam_from_base) + SystematicCovariance(length_ + length);
 }
 
-double PathDrift::Trace() const {
-  constexpr double kPerSquaredMetre = 3.0 * (kSystematicRotationSigma * kSystematicRotationSigma +
-                                             kSystematicSigma * kSystematicSigma);
-  return steps_.trace() + kPerSquaredMetre * length_ * length_;
-}
+double PathDrift::Trace() const { return steps_.trace() + SystematicCovariance(length_).trace(); }
 
 PathDrift DriftBetween(const Map& map, KeyframeId a, KeyframeId b) {
   const Rigid3 b_from_world = map.CamFromWorld(b);

@@ -37,7 +37,8 @@ struct MapSnapshot {
   int world = 0;  ///< number of the segment that began the world of the map
   KeyframeId newest_keyframe = kNoId;
   int num_loops = 0;  ///< closed in the run so far
-  /// LoopCloser::edges(): those of closed loops, earlier sessions and other maps included.
+  /// Measured poses of closed loops, and of keyframes in known parts of the map; those of earlier
+  /// sessions and of other maps included.
   std::vector<PoseGraphEdge> loops;
   NoiseScale noise_scale;     ///< self-calibrated
   double readout_time = 0.0;  ///< seconds, of the rolling-shutter compensation of its keyframes

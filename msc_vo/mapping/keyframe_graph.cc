@@ -31,7 +31,8 @@ struct Link {
   PoseCovariance drift;  // of the camera of b
 };
 
-// The links of a map, and how many of them stand beside each other.
+// The links of a map. Most steps are bridged by several: by their own and by those of pairs of
+// keyframes before and after them.
 class KeyframeLinks {
  public:
   KeyframeLinks(const Map& map, double systematic_length)
@@ -48,17 +49,17 @@ class KeyframeLinks {
   }
 
   std::vector<PoseGraphEdge> Edges() const {
-    const std::vector<double> sums = CountBesideEachOther();
+    const std::vector<double> sums = SumsOfBridgingLinks();
     std::vector<PoseGraphEdge> edges;
     for (const Link& link : links_) {
-      const double num_beside =
-          (sums[link.b] - sums[link.a]) / static_cast<double>(link.b - link.a);
+      double num_bridging = 1.0;
+      if (systematic_length_ > 0.0) {
+        const double mean = (sums[link.b] - sums[link.a]) / static_cast<double>(link.b - link.a);
+        num_bridging = std::max(1.0, mean);
+      }
+      const PoseCovariance camera = num_bridging * link.drift + CommonViewCovariance();
       edges.push_back(
-          {ids_[link.a], ids_[link.b], link.b_from_a,
-           CovarianceOfCamera(
-               link.b_from_a,
-               (systematic_length_ > 0.0 ? std::max(1.0, num_beside) : 1.0) * link.drift +
-                   CommonViewCovariance())});
+          {ids_[link.a], ids_[link.b], link.b_from_a, CovarianceOfCamera(link.b_from_a, camera)});
     }
     return edges;
   }
@@ -84,16 +85,16 @@ class KeyframeLinks {
                           SystematicCovariance(std::sqrt(drift.length() * systematic_length_))});
   }
 
-  // For every keyframe, the sum over the steps before it of the number of links beside the step.
-  // A link counts as far as it is the path between its keyframes: one that closes a loop has errors
-  // of its own.
-  std::vector<double> CountBesideEachOther() const {
+  // For every keyframe, the sum over the steps before it of the number of links that bridge the
+  // step. A link counts by its length relative to the path between its keyframes: one that closes a
+  // loop does not repeat the steps of the path.
+  std::vector<double> SumsOfBridgingLinks() const {
     std::vector<double> sums(ids_.size() + 1, 0.0);
     for (const Link& link : links_) {
       const double path = path_lengths_[link.b] - path_lengths_[link.a];
-      const double share = path > 0.0 ? link.b_from_a.translation().norm() / path : 1.0;
-      sums[link.a + 1] += share;
-      sums[link.b + 1] -= share;
+      const double weight = path > 0.0 ? link.b_from_a.translation().norm() / path : 1.0;
+      sums[link.a + 1] += weight;
+      sums[link.b + 1] -= weight;
     }
     for (int i = 0; i < 2; ++i) std::partial_sum(sums.begin(), sums.end(), sums.begin());
     return sums;
@@ -108,8 +109,8 @@ class KeyframeLinks {
 };
 
 // The keyframe that stands for another one in the graph: itself, or the one before it if it was
-// culled, unless that is of another session and may be anywhere. The map does not know those of
-// other maps, nor those that were culled before it was saved: kNoId.
+// culled. kNoId if there is none: the one before it is of another session and may be anywhere, or
+// the keyframe is of another map, or was culled before the map was saved.
 KeyframeId Representative(const Map& map, KeyframeId id) {
   const auto* entry = map.KnowsKeyframe(id) ? map.keyframes().FindUpTo(id) : nullptr;
   const bool is_near =

@@ -19,12 +19,13 @@ PoseCovariance CommonViewCovariance();
 /// landmarks, and `loops`, whose keyframes are represented by those before them if they were
 /// culled.
 ///
-/// The graph drifts as odometry does. Its edges have independent errors, but the systematic error
-/// of a path is common to all of its steps. To let a path of L metres drift by s times
-/// SystematicCovariance(L) as a whole, a step of l metres gets the variance of s^2 l L metres^2:
-/// `systematic_length` is s^2 L. Steps and pairs beside each other then repeat one measurement:
-/// this part of their covariances is multiplied by the number of them. 0: all errors are
-/// independent, as those of a camera that is calibrated well.
+/// `systematic_length`, metres: 0 for a camera that is calibrated well, whose edges have
+/// independent errors. Otherwise the graph drifts as a path with systematic errors does. Such an
+/// error is common to all steps of a path, but edges are independent: so that the variances of the
+/// steps add up to SystematicCovariance(f L) along a path of L metres, an edge of l metres gets
+/// SystematicCovariance(sqrt(l `systematic_length`)) with `systematic_length` = f^2 L. Edges that
+/// bridge the same step then repeat one measurement, so that the drift of each is multiplied by the
+/// number of them.
 PoseGraph MakeKeyframeGraph(const Map& map, const std::vector<PoseGraphEdge>& loops,
                             double systematic_length);
 

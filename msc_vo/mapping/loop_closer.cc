@@ -64,17 +64,17 @@ PoseGraphEdge LoopCloser::EdgeOf(const Map& map, const KeyframeRevisit& visit) c
 }
 
 double LoopCloser::SquaredError(const Map& map, const PoseGraphEdge& edge, const PathDrift& path,
-                                double share) const {
+                                double factor) const {
   const Rigid3 by_path = map.CamFromWorld(edge.to) * map.CamFromWorld(edge.from).Inverse();
   return SquaredDriftError(by_path, edge.to_from_from,
-                           path.StepsAt(Rigid3()) + SystematicCovariance(share * path.length()) +
+                           path.StepsAt(Rigid3()) + SystematicCovariance(factor * path.length()) +
                                CameraCovariance(edge.to_from_from, edge.covariance));
 }
 
-double LoopCloser::SystematicShare(const Map& map, const PoseGraphEdge& edge,
-                                   const PathDrift& path) const {
-  for (const double share : {0.125, 0.25, 0.5}) {
-    if (SquaredError(map, edge, path, share) <= kExpectedChiSquare) return share;
+double LoopCloser::SystematicFactor(const Map& map, const PoseGraphEdge& edge,
+                                    const PathDrift& path) const {
+  for (const double factor : {0.125, 0.25, 0.5}) {
+    if (SquaredError(map, edge, path, factor) <= kExpectedChiSquare) return factor;
   }
   return 1.0;
 }
@@ -112,8 +112,8 @@ std::optional<LoopClosure> LoopCloser::TryClose(Map* map) {
     const PathDrift path = PathCovariances(*map, loop_edges_, edge.to).DriftTo(edge.from);
     if (SquaredError(*map, edge, path, 1.0) >= kOutlierChiSquare[6]) return refuse();
     new_edges.push_back(edge);
-    const double share = SystematicShare(*map, edge, path);
-    systematic_length = std::max(systematic_length, share * share * path.length());
+    const double factor = SystematicFactor(*map, edge, path);
+    systematic_length = std::max(systematic_length, factor * factor * path.length());
   }
   std::optional<PoseGraph> graph = Correct(*map, new_edges, 0.0);
   const bool is_first = !std::exchange(is_contradicted_, !graph);

@@ -75,23 +75,24 @@ class LoopCloser {
   // The recent visits that agree on a correction; empty if too few do.
   std::vector<KeyframeRevisit> AgreeingVisits(const Map& map) const;
   PoseGraphEdge EdgeOf(const Map& map, const KeyframeRevisit& visit) const;
-  // Squared norm of the whitened error of the path between the keyframes of a loop, given `share`
-  // of its systematic drift. `path`: base: `edge.to`.
+  // Squared norm of the whitened error of the path between the keyframes of a loop, if its
+  // systematic error is `factor` times that of the model. `path`: base: `edge.to`.
   double SquaredError(const Map& map, const PoseGraphEdge& edge, const PathDrift& path,
-                      double share) const;
+                      double factor) const;
   // The pose graph of the map with further edges, solved; std::nullopt if an edge contradicts.
   // `systematic_length`: see MakeKeyframeGraph().
   std::optional<PoseGraph> Correct(const Map& map, const std::vector<PoseGraphEdge>& new_edges,
                                    double systematic_length) const;
-  // The systematic drift that is needed to explain a loop, 1/8 to 1 of what is possible.
-  double SystematicShare(const Map& map, const PoseGraphEdge& edge, const PathDrift& path) const;
+  // The smallest of 1/8, 1/4, 1/2 and 1 by which the systematic error of the model is to be
+  // multiplied so that the error of the path is no larger than expected; 1 if none suffices.
+  double SystematicFactor(const Map& map, const PoseGraphEdge& edge, const PathDrift& path) const;
 
   std::vector<KeyframeRevisit> visits_;
   std::vector<PoseGraphEdge> loop_edges_;  // beside those along the path
   int num_closed_ = 0;
   int num_refused_ = 0;
-  // The last loop contradicted the graph with independent errors. It may have been found from
-  // afar: systematic errors are the explanation if the next one does, too.
+  // The last loop contradicted the graph with independent errors. It may be inaccurate, found in a
+  // distant view: systematic errors explain it if the next one contradicts, too.
   bool is_contradicted_ = false;
 };
 

@@ -90,7 +90,8 @@ TEST_F(OnlineResultsTest, ReplacesFilesThatAreNotThoseOfTheResumedRun) {
   EXPECT_EQ(ReadTrajectory(Path("out/trajectory.txt")).size(), 1u);
 }
 
-// It was killed before it had written all final results and removed its checkpoint.
+// The first run was killed after it had written its final results, before it removed its
+// checkpoint.
 TEST_F(OnlineResultsTest, KeepsFinalResultsUntilTheResumedRunHasAsMany) {
   std::vector<FrameResult> frames;
   for (int i = 0; i < 3; ++i) frames.push_back(Frame(1.0 + i, TrackingStatus::kTracked));

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/mapping/keyframe_graph.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <Eigen/Cholesky>
+#include <gtest/gtest.h>
+
+#include "msc_vo/map/path_covariance.h"
+
+namespace msc_vo {
+namespace {
+
+constexpr int kNumKeyframes = 60;
+constexpr double kStep = 0.2;                            // metres
+constexpr double kLength = (kNumKeyframes - 1) * kStep;  // metres
+constexpr int kNumPoints = 25;                           // landmarks that begin per keyframe
+constexpr Eigen::Index kAlong = 3;                       // row of the translation along x
+
+// A straight path along x. The landmarks that begin at a keyframe are observed by `num_observers`
+// in a row.
+Map StraightPath(int num_observers) {
+  Map map;
+  for (int i = 0; i < kNumKeyframes; ++i) {
+    auto frame = std::make_shared<Frame>();
+    frame->points.resize(static_cast<size_t>(kNumPoints * num_observers));
+    map.AddKeyframe(frame, Rigid3(Eigen::Quaterniond::Identity(), {-kStep * i, 0.0, 0.0}));
+    map.SetStepCovariance(i, IsotropicCovariance(1e-5, 1e-5));
+  }
+  for (int i = 0; i < kNumKeyframes; ++i) {
+    for (int point = 0; point < kNumPoints; ++point) {
+      const LandmarkId id = map.Add<PointLandmark>(i, point, {kStep * i, 0.0, 2.0});
+      for (int later = 1; later < num_observers && i + later < kNumKeyframes; ++later) {
+        map.Observe<PointLandmark>(id, i + later, kNumPoints * later + point);
+      }
+    }
+  }
+  return map;
+}
+
+// Standard deviation of the position of the last keyframe along the path, relative to the first
+// one: the edges are independent and the motion has no turn, so that this direction is a network of
+// resistors.
+double SigmaAlongPath(const PoseGraph& graph) {
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(kNumKeyframes, kNumKeyframes);
+  for (const PoseGraphEdge& edge : graph.edges) {
+    const double weight = 1.0 / edge.covariance(kAlong, kAlong);
+    information(edge.from, edge.from) += weight;
+    information(edge.to, edge.to) += weight;
+    information(edge.from, edge.to) -= weight;
+    information(edge.to, edge.from) -= weight;
+  }
+  constexpr int kFree = kNumKeyframes - 1;  // the first one is held fixed
+  Eigen::VectorXd last = Eigen::VectorXd::Unit(kFree, kFree - 1);
+  const Eigen::MatrixXd of_free = information.bottomRightCorner(kFree, kFree);
+  return std::sqrt(last.dot(of_free.ldlt().solve(last)));
+}
+
+class KeyframeGraphTest : public testing::TestWithParam<int> {};
+
+TEST_P(KeyframeGraphTest, DriftsAsAPathWithSystematicErrorsDoes) {
+  const Map map = StraightPath(GetParam());
+  const double expected = std::sqrt(SystematicCovariance(kLength)(kAlong, kAlong));
+  EXPECT_NEAR(SigmaAlongPath(MakeKeyframeGraph(map, {}, kLength)), expected, 0.1 * expected);
+  EXPECT_NEAR(SigmaAlongPath(MakeKeyframeGraph(map, {}, 0.25 * kLength)), 0.5 * expected,
+              0.1 * expected);
+}
+
+TEST_P(KeyframeGraphTest, HasIndependentErrorsOtherwise) {
+  const PoseGraph graph = MakeKeyframeGraph(StraightPath(GetParam()), {}, 0.0);
+  const double view = CommonViewCovariance()(kAlong, kAlong);
+  const double sigma_of_steps = std::sqrt((kNumKeyframes - 1) * view);
+  EXPECT_LT(SigmaAlongPath(graph), 1.01 * sigma_of_steps);
+  EXPECT_GT(SigmaAlongPath(graph), 0.1 * sigma_of_steps);
+}
+
+TEST_P(KeyframeGraphTest, HasAnEdgePerStepAndPerPairThatSharesLandmarks) {
+  const PoseGraph graph = MakeKeyframeGraph(StraightPath(GetParam()), {}, kLength);
+  EXPECT_EQ(graph.poses.size(), static_cast<size_t>(kNumKeyframes));
+  const int reach = std::max(1, GetParam() - 1);
+  size_t expected = 0;
+  for (int i = 1; i < kNumKeyframes; ++i) expected += static_cast<size_t>(std::min(i, reach));
+  EXPECT_EQ(graph.edges.size(), expected);
+  for (const PoseGraphEdge& edge : graph.edges) {
+    EXPECT_LE(edge.to - edge.from, reach);
+    const Rigid3 expected_pose = graph.poses.at(edge.to) * graph.poses.at(edge.from).Inverse();
+    EXPECT_TRUE(edge.to_from_from.translation().isApprox(expected_pose.translation(), 1e-12));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(ByObserversOfALandmark, KeyframeGraphTest, testing::Values(1, 2, 6),
+                         testing::PrintToStringParamName());
+
+// The keyframe of a loop that was culled is represented by the one before it.
+TEST(KeyframeGraphLoopTest, AttachesALoopToTheKeyframeBeforeACulledOne) {
+  Map map = StraightPath(2);
+  const PoseCovariance covariance = 1e-6 * PoseCovariance::Identity();
+  const Rigid3 to_from_from = map.CamFromWorld(50) * map.CamFromWorld(10).Inverse();
+  map.RemoveKeyframe(50, 49);
+  const PoseGraph graph = MakeKeyframeGraph(map, {{10, 50, to_from_from, covariance}}, 0.0);
+  EXPECT_EQ(graph.edges.back().from, 10);
+  EXPECT_EQ(graph.edges.back().to, 49);
+  const Rigid3 expected = map.CamFromWorld(49) * map.CamFromWorld(10).Inverse();
+  EXPECT_TRUE(
+      graph.edges.back().to_from_from.translation().isApprox(expected.translation(), 1e-12));
+}
+
+}  // namespace
+}  // namespace msc_vo
