@@ -45,11 +45,14 @@ struct Landmark {
   int num_found = 1;
   /// Noise of its observations relative to the sigmas of the features.
   double noise = 1.0;
+  /// The measured depth is not that of what the image shows, such as of a pane in front of it: only
+  /// its pixels count.
+  bool has_false_depth = false;
 
   template <typename Archive>
   void Serialize(Archive& archive) {
     archive.Fields(*this, id, first_keyframe, observations, descriptor, descriptor_is_current,
-                   viewing_direction, num_visible, num_found, noise);
+                   viewing_direction, num_visible, num_found, noise, has_false_depth);
   }
 };
 

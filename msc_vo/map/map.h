@@ -132,6 +132,12 @@ class Map {
   void SetNoise(LandmarkId landmark, double noise) {
     Table<L>().FindToChange(landmark)->noise = noise;
   }
+  /// Sets Landmark::has_false_depth.
+  template <typename L>
+  void SetHasFalseDepth(LandmarkId landmark, bool has_false_depth) {
+    if (Find<L>(landmark)->has_false_depth == has_false_depth) return;
+    Table<L>().FindToChange(landmark)->has_false_depth = has_false_depth;
+  }
   /// Sets LineLandmark::depth_offset.
   void SetDepthOffset(LandmarkId line, double depth_offset) {
     Table<LineLandmark>().FindToChange(line)->depth_offset = depth_offset;

@@ -66,7 +66,7 @@ struct PointLandmark : Landmark {
   /// Whether the depth of a feature of a keyframe, if it was measured, agrees with the landmark, at
   /// the 99 % quantile.
   bool AgreesWithDepth(const Rigid3& cam_from_world, const Feature& measured) const {
-    if (!measured.HasDepth()) return true;
+    if (!measured.HasDepth() || has_false_depth) return true;
     const double depth = (cam_from_world * position).z();
     return depth > 0.0 &&
            std::abs(1.0 / depth - measured.inverse_depth) < 2.576 * measured.inverse_depth_sigma;

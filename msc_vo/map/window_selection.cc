@@ -100,6 +100,7 @@ WindowData::PointObservation MakeObservation(const Keyframe& keyframe, const Poi
   observation.point = point.id;
   observation.pixel = feature.pixel;
   observation.sigma = feature.sigma;
+  if (point.has_false_depth) return observation;
   observation.inverse_depth = feature.inverse_depth;
   observation.inverse_depth_sigma = feature.inverse_depth_sigma;
   return observation;
@@ -113,7 +114,7 @@ WindowData::LineObservation MakeObservation(const Keyframe& keyframe, const Line
   observation.line = line.id;
   observation.segment = feature.segment;
   observation.sigma = feature.sigma;
-  observation.has_depth = feature.depth.has_value();
+  observation.has_depth = feature.depth.has_value() && !line.has_false_depth;
   if (observation.has_depth) observation.depth = *feature.depth;
   return observation;
 }

@@ -78,6 +78,7 @@ class TableWriter {
   void Erase();
   void WriteMap(int submap, const Map& before, const Map& now);
   void WriteKeyframe(int submap, const Map& map, const Keyframe& keyframe);
+  void WriteFalseDepths();
   void WriteFeatures(const Map& map, const Keyframe& keyframe);
   template <typename L>
   void WriteLandmark(int submap, const L& landmark, SqliteStatement* upsert);
@@ -177,7 +178,7 @@ void TableWriter::WriteLandmark(int submap, const L& landmark, SqliteStatement* 
 
 // Replaces the rows of tables with few rows.
 void TableWriter::WriteSmallTables() {
-  for (const char* table : {"map", "session", "submap", "loop"}) {
+  for (const char* table : {"map", "session", "submap", "loop", "false_depth"}) {
     database_.Execute(std::string("DELETE FROM ") + table);
   }
   KeyframeId next_keyframe = 0;
@@ -201,7 +202,20 @@ void TableWriter::WriteSmallTables() {
   }
   id = 0;
   for (const PoseGraphEdge& loop : now_.loops) WriteLoop(++id, loop);
+  WriteFalseDepths();
   WritePlanes(database_, now_);
+}
+
+void TableWriter::WriteFalseDepths() {
+  SqliteStatement insert = PrepareUpsert(database_, "false_depth", 2);
+  for (const SavedSubMap& submap : now_.submaps) {
+    ForEachLandmarkKind([&](auto kind) {
+      for (const auto& [id, landmark] :
+           submap.map.template landmarks<typename decltype(kind)::Landmark>()) {
+        if (landmark.has_false_depth) RowWriter(&insert).Integer(id).Execute();
+      }
+    });
+  }
 }
 
 void TableWriter::WriteSubMap(const SavedSubMap& submap) {

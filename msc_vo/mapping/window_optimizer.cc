@@ -8,6 +8,7 @@
 #include <string>
 
 #include "msc_vo/map/window_selection.h"
+#include "msc_vo/mapping/false_depths.h"
 
 namespace msc_vo {
 
@@ -41,6 +42,9 @@ std::unique_ptr<WindowTask> WindowOptimizer::BeginWindow(KeyframeId keyframe, bo
 BundleAdjustmentSummary WindowOptimizer::EndWindow(KeyframeId keyframe, const WindowTask& task,
                                                    SubMap* submap) {
   WriteResult(task, submap);
+  if (task.solve_.summary().usable) {
+    FindFalseDepths(task.window_, keyframe, submap->noise.scale(), &submap->map);
+  }
   last_time_ = submap->map.FindKeyframe(keyframe)->frame->timestamp;
   return task.solve_.summary();
 }

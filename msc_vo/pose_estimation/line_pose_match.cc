@@ -23,7 +23,7 @@ LinePoseMatch MakePoseMatch(const LineMatch& match, const Frame& frame,
   if (landmark != nullptr) depth = Nearer(depth, landmark->depth_offset);
   depth.covariance *= noise * noise * scale.line_depth * scale.line_depth;
   return {part.Of(match.segment), feature.segment, noise * scale.line_pixel * feature.sigma,
-          feature.depth.has_value(), depth};
+          feature.depth.has_value() && (landmark == nullptr || !landmark->has_false_depth), depth};
 }
 
 const char* MatchError(const LinePoseMatch& l) {

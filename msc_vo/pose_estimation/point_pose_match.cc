@@ -17,6 +17,9 @@ PointPoseMatch MakePoseMatch(const PointMatch& match, const Frame& frame,
                              const NoiseScale& scale) {
   const PointFeature& feature = frame.points[match.feature];
   const double noise = landmark != nullptr ? landmark->noise : 1.0;
+  if (landmark != nullptr && landmark->has_false_depth) {
+    return {match.position, feature.pixel, noise * feature.sigma};
+  }
   return {match.position, feature.pixel, noise * feature.sigma, feature.inverse_depth,
           noise * scale.point_depth * feature.inverse_depth_sigma};
 }

@@ -68,6 +68,7 @@ void ExpectSameLandmarks(const Map& loaded, const Map& saved) {
     EXPECT_EQ(found->num_visible, landmark.num_visible);
     EXPECT_EQ(found->num_found, landmark.num_found);
     EXPECT_EQ(found->noise, landmark.noise);
+    EXPECT_EQ(found->has_false_depth, landmark.has_false_depth);
     EXPECT_LT((found->viewing_direction - landmark.viewing_direction).norm(), 1e-5);
     ASSERT_EQ(found->observations.size(), landmark.observations.size());
     for (size_t i = 0; i < landmark.observations.size(); ++i) {

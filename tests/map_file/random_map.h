@@ -59,7 +59,9 @@ class RandomMap {
           map->Observe<L>(old, id, i);
           map->Refresh<L>(old);
         } else if (i % 3 != 0) {
-          map->SetNoise<L>(map->Add<L>(id, i, Geometry<L>()), Uniform(1.0, 3.0));
+          const LandmarkId landmark = map->Add<L>(id, i, Geometry<L>());
+          map->SetNoise<L>(landmark, Uniform(1.0, 3.0));
+          map->SetHasFalseDepth<L>(landmark, i % 4 == 2);
         }
       }
     });

@@ -63,6 +63,8 @@ constexpr struct {
      "CREATE TABLE plane (id INTEGER PRIMARY KEY, submap INTEGER NOT NULL, host INTEGER NOT NULL, "
      "nx REAL NOT NULL, ny REAL NOT NULL, nz REAL NOT NULL, d REAL NOT NULL, extent BLOB NOT NULL, "
      "observations BLOB NOT NULL, checksum INTEGER NOT NULL)"},
+    {"false_depth", 3, kMapFileVersion,
+     "CREATE TABLE false_depth (landmark INTEGER PRIMARY KEY, checksum INTEGER NOT NULL)"},
     {"loop", 1, kMapFileVersion,
      "CREATE TABLE loop (id INTEGER PRIMARY KEY, from_keyframe INTEGER NOT NULL, to_keyframe "
      "INTEGER NOT NULL, qx REAL NOT NULL, qy REAL NOT NULL, qz REAL NOT NULL, qw REAL NOT NULL, tx "

@@ -10,9 +10,11 @@
 namespace msc_vo {
 
 /// Version of the tables, docs/map_file.md.
-constexpr int kMapFileVersion = 2;
+constexpr int kMapFileVersion = 3;
 /// The first version with the tables of planes.
 constexpr int kFirstVersionWithPlanes = 2;
+/// The first version with the table of landmarks whose depth is false.
+constexpr int kFirstVersionWithFalseDepths = 3;
 
 /// Largest ids of keyframes and landmarks, because the memory of some algorithms grows with them: a
 /// year of keyframes, and a hundred landmarks for each.

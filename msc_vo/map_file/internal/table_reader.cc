@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -60,7 +61,9 @@ class TableReader {
     if (version_ >= kFirstVersionWithPlanes) planes_ = ReadPlaneFeatures(database_);
     ReadKeyframes();
     if (version_ >= kFirstVersionWithPlanes) ReadPlanes(database_, &contents_);
+    if (version_ >= kFirstVersionWithFalseDepths) ReadFalseDepths();
     ForEachLandmarkKind([&](auto kind) { ReadLandmarks<typename decltype(kind)::Landmark>(); });
+    if (!false_depths_.empty()) Fail("a false depth is that of a landmark that does not exist");
     ReadLoops();
     for (SavedSubMap& submap : contents_.submaps) {
       submap.map.ContinueIds(next_keyframe_, next_landmark_);
@@ -84,6 +87,7 @@ class TableReader {
   std::shared_ptr<const Frame> ReadFrame(KeyframeId id, RowReader* row);
   template <typename L>
   void ReadFeatures(KeyframeId id, RowReader* row, Frame* frame);
+  void ReadFalseDepths();
   template <typename L>
   void ReadLandmarks();
   template <typename L>
@@ -105,6 +109,7 @@ class TableReader {
   PerKind<size_t> num_used_;  // of the observations, by the landmarks that have been read
   const int version_ = SchemaVersion(database_);
   std::map<KeyframeId, std::vector<PlaneFeature>> planes_;  // of keyframes that are yet to be read
+  std::set<LandmarkId> false_depths_;                       // of landmarks that are yet to be read
 };
 
 void TableReader::ReadIds() {
@@ -280,6 +285,7 @@ void TableReader::ReadLandmark(RowReader* row) {
   landmark.num_visible = static_cast<int>(num_visible);
   landmark.num_found = static_cast<int>(num_found);
   landmark.noise = row->Real();
+  landmark.has_false_depth = false_depths_.erase(landmark.id) > 0;
   row->Finish();
   const std::vector<NamedObservation>& observations = observations_.Of<L>();
   for (size_t& i = num_used_.Of<L>();
@@ -294,6 +300,15 @@ void TableReader::ReadLandmark(RowReader* row) {
   const LandmarkId id = landmark.id;
   submap->map.AddExisting(std::move(landmark));
   submap->map.Refresh<L>(id);
+}
+
+void TableReader::ReadFalseDepths() {
+  SqliteStatement rows = database_.Prepare("SELECT * FROM false_depth ORDER BY landmark");
+  while (rows.Step()) {
+    RowReader row(rows, database_.path(), "false_depth");
+    false_depths_.insert(row.Integer());
+    row.Finish();
+  }
 }
 
 void TableReader::ReadLoops() {

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#pragma once
+
+#include <optional>
+
+#include "msc_vo/map/map.h"
+#include "msc_vo/map/noise_scale.h"
+
+namespace msc_vo {
+
+/// The ratio by which the depth that the parallax of a landmark gives exceeds the measured one, and
+/// its variance. 0: both agree.
+struct DepthExcess {
+  double value = 0.0;
+  double variance = 0.0;
+};
+
+/// By all keyframes that observe the landmark, at the poses that they have in the map: the distance
+/// from the centre of the cameras that fits the images best, without depth, and the weighted mean
+/// of the measured depths. `scale`: of the sigmas of the features. std::nullopt with one keyframe,
+/// without a measured depth, or if the landmark is not in front of all cameras.
+template <typename L>
+std::optional<DepthExcess> MeasureDepthExcess(const Map& map, const L& landmark,
+                                              const NoiseScale& scale);
+
+}  // namespace msc_vo
