@@ -77,7 +77,7 @@ TEST_F(MapCommandTest, CreatesAMapWithoutAnEffectOnTheRun) {
   EXPECT_FALSE(HasEntry(Path("home.map-journal")));
   const CommandOutcome info = RunCommand({"map", "info", Path("home.map")});
   EXPECT_EQ(info.exit_code, 0);
-  EXPECT_THAT(info.output, AllOf(LineNames("version", "2"), LineNames("session", "room"),
+  EXPECT_THAT(info.output, AllOf(LineNames("version", "3"), LineNames("session", "room"),
                                  LineNames("submap", "0", "keyframes", "points", "lines")));
   EXPECT_EQ(RunCommand({"map", "check", Path("home.map")}).exit_code, 0);
 }

@@ -83,9 +83,9 @@ TEST_F(MapFileDamageTest, WritesIntoEmptyFileAndSaysThatItIsEmpty) {
 }
 
 TEST_F(MapFileDamageTest, RefusesNewerVersion) {
-  Change("PRAGMA user_version = 3");
-  EXPECT_THAT(Problem(), Names(path_, "version 3", "newer msc_vo"));
-  EXPECT_THAT(MessageOf([&] { MapWriter writer(path_); }), Names(path_, "version 3"));
+  Change("PRAGMA user_version = 4");
+  EXPECT_THAT(Problem(), Names(path_, "version 4", "newer msc_vo"));
+  EXPECT_THAT(MessageOf([&] { MapWriter writer(path_); }), Names(path_, "version 4"));
 }
 
 TEST_F(MapFileDamageTest, RefusesOtherTables) {

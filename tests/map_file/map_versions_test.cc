@@ -4,6 +4,7 @@
 // Files of every version that was ever released can be read (tests/data/maps).
 
 #include <filesystem>
+#include <vector>
 
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
@@ -79,6 +80,22 @@ TEST_F(MapVersionsTest, ReadsThePlanesOfVersion2) {
   }
 }
 
+TEST_F(MapVersionsTest, ReadsTheFalseDepthsOfVersion3) {
+  const std::string path = Copy("version_3.map");
+  EXPECT_NO_THROW(CheckMap(path));
+  EXPECT_EQ(SummarizeMap(path).version, 3);
+  const MapContents contents = LoadMap(path);
+  ASSERT_EQ(contents.submaps.size(), 1u);
+  std::vector<LandmarkId> false_depths;
+  for (const auto& [id, point] : contents.submaps[0].map.points()) {
+    if (point.has_false_depth) false_depths.push_back(id);
+  }
+  for (const auto& [id, line] : contents.submaps[0].map.lines()) {
+    if (line.has_false_depth) false_depths.push_back(id);
+  }
+  EXPECT_THAT(false_depths, testing::UnorderedElementsAre(125, 376));
+}
+
 TEST_F(MapVersionsTest, ExtendsVersion1) {
   const std::string path = Copy("version_1.map");
   MapWriter writer(path);
@@ -90,7 +107,7 @@ TEST_F(MapVersionsTest, ExtendsVersion1) {
   EXPECT_EQ(extended.sessions.size(), 3u);
   EXPECT_NEAR(extended.submaps[0].noise_scale.line_pixel, 0.77900126102768, 1e-12);
   EXPECT_EQ(extended.submaps[0].map.points().size(), 283u);
-  EXPECT_EQ(SummarizeMap(Path("copy.map")).version, 2);
+  EXPECT_EQ(SummarizeMap(Path("copy.map")).version, 3);
 }
 
 }  // namespace
