@@ -7,8 +7,8 @@
 namespace msc_vo {
 namespace {
 
-// A pane covers the pictures of the wall that the camera faces. With the depth of the pane for what is
-// 5 % farther behind it, the error is 1.3 mm, and without a pane 0.43 mm.
+// A pane covers the pictures of the wall that the camera faces. With the depth of the pane for what
+// is 5 % farther behind it, the error is 1.3 mm, and without a pane 0.43 mm.
 TEST(GlassTest, CostsLittleAccuracy) {
   constexpr int kNumImages = 100;
   SyntheticSequenceOptions options;
