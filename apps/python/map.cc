@@ -22,9 +22,12 @@ void AddObservations(const Map& map, const PointLandmark& point, WindowData* win
   for (const Observation& observation : point.observations) {
     const Keyframe& keyframe = *map.FindKeyframe(observation.keyframe);
     const PointFeature& feature = keyframe.frame->points[observation.feature];
-    window->point_observations.push_back({keyframe.id, point.id, feature.pixel, feature.sigma,
-                                          feature.inverse_depth, feature.inverse_depth_sigma,
-                                          false});
+    WindowData::PointObservation in_window{keyframe.id, point.id, feature.pixel, feature.sigma};
+    if (!point.has_false_depth) {
+      in_window.inverse_depth = feature.inverse_depth;
+      in_window.inverse_depth_sigma = feature.inverse_depth_sigma;
+    }
+    window->point_observations.push_back(in_window);
   }
 }
 
@@ -33,7 +36,7 @@ void AddObservations(const Map& map, const LineLandmark& line, WindowData* windo
     const Keyframe& keyframe = *map.FindKeyframe(observation.keyframe);
     const LineFeature& feature = keyframe.frame->lines[observation.feature];
     window->line_observations.push_back({keyframe.id, line.id, feature.segment, feature.sigma,
-                                         feature.depth.has_value(),
+                                         feature.depth.has_value() && !line.has_false_depth,
                                          feature.depth.value_or(LineDepth()), false});
   }
 }

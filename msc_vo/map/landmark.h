@@ -45,8 +45,8 @@ struct Landmark {
   int num_found = 1;
   /// Noise of its observations relative to the sigmas of the features.
   double noise = 1.0;
-  /// The measured depth is not that of what the image shows, such as of a pane in front of it: only
-  /// its pixels count.
+  /// The depth image measured a nearer surface, such as a pane of glass; only the observations in
+  /// the image are used.
   bool has_false_depth = false;
 
   template <typename Archive>

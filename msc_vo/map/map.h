@@ -270,6 +270,7 @@ void Map::MergeLandmarks(LandmarkId from, LandmarkId into) {
   L* const target = Table<L>().FindToChange(into);
   target->num_visible += source.num_visible;
   target->num_found += source.num_found;
+  target->has_false_depth |= source.has_false_depth;
 }
 
 template <typename L>

@@ -17,10 +17,11 @@ struct DepthExcess {
   double variance = 0.0;
 };
 
-/// By all keyframes that observe the landmark, at the poses that they have in the map: the distance
-/// from the centre of the cameras that fits the images best, without depth, and the weighted mean
-/// of the measured depths. `scale`: of the sigmas of the features. std::nullopt with one keyframe,
-/// without a measured depth, or if the landmark is not in front of all cameras.
+/// Triangulates the distance of a landmark from the centre of all cameras that observe it, at their
+/// poses in the map, without depth, and compares it with the weighted mean of the measured depths,
+/// LineLandmark::depth_offset not subtracted. `scale`: factors on the sigmas of the features.
+/// std::nullopt with one keyframe, without a measured depth, or if the landmark is not in front of
+/// all cameras.
 template <typename L>
 std::optional<DepthExcess> MeasureDepthExcess(const Map& map, const L& landmark,
                                               const NoiseScale& scale);

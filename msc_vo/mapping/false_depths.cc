@@ -4,25 +4,27 @@
 #include "msc_vo/mapping/false_depths.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "msc_vo/bundle_adjustment/observation.h"
+#include "msc_vo/geometry/angles.h"
 #include "msc_vo/mapping/depth_excess.h"
+#include "msc_vo/pose_estimation/image_grid.h"
 
 namespace msc_vo {
 
 namespace {
 
-// The image is divided into parts. Chosen by measurement, see docs/lab/depth.md.
+// Cells of the image. Chosen by measurement, see docs/lab/depth.md.
 constexpr int kColumns = 6, kRows = 4;
-// Points that a part needs, and parts that an image needs.
-constexpr size_t kMinPoints = 3, kMinParts = 6;
+// Points that a cell needs, and cells that an image needs.
+constexpr size_t kMinPoints = 3, kMinCells = 6;
 // Ratio of false depths, and their largest excess.
 constexpr double kPrior = 0.02, kMaxExcess = 0.5;
-// Standard deviation of an excess that still tells something.
+// Largest standard deviation of an excess that is used.
 constexpr double kMaxSigma = 0.1;
 // Least standard deviation of the excess of a surface: its depth and the poses err as well.
 constexpr double kMinSpread = 0.003;
@@ -33,8 +35,8 @@ struct LandmarkExcess {
   DepthExcess excess;
 };
 
-// What is in a part of the image.
-struct Part {
+// What is in a cell of the image.
+struct Cell {
   std::vector<LandmarkExcess<PointLandmark>> points;
   std::vector<LandmarkExcess<LineLandmark>> lines;
 
@@ -47,44 +49,40 @@ struct Part {
       ascending.push_back(excess);
       weights += 1.0 / excess.variance;
     }
-    std::sort(ascending.begin(), ascending.end(),
-              [](const DepthExcess& a, const DepthExcess& b) { return a.value < b.value; });
+    std::sort(ascending.begin(), ascending.end(), [](const DepthExcess& a, const DepthExcess& b) {
+      return std::tie(a.value, a.variance) < std::tie(b.value, b.variance);
+    });
     size_t middle = 0;
     for (double sum = 1.0 / ascending[0].variance;
-         sum < 0.5 * weights && middle + 1 < points.size();
+         sum < 0.5 * weights && middle + 1 < ascending.size();
          sum += 1.0 / ascending[middle].variance) {
       ++middle;
     }
-    constexpr double kVarianceOfMedian = M_PI / 2.0;  // relative to that of the mean
+    constexpr double kVarianceOfMedian = kPi / 2.0;  // relative to that of the mean
     return DepthExcess{ascending[middle].value, kVarianceOfMedian / weights};
   }
 };
-using Parts = std::array<Part, kColumns * kRows>;
 
-// The part of the image in which a keyframe shows a point of the world.
-std::optional<size_t> PartOf(const Keyframe& keyframe, const Eigen::Vector3d& position) {
-  const PinholeCamera& camera = keyframe.frame->camera;
-  const Eigen::Vector3d in_cam = keyframe.cam_from_world * position;
-  if (!IsInFront(in_cam)) return std::nullopt;
-  const Eigen::Vector2d pixel = camera.Project(in_cam);
-  const double column = std::floor(pixel.x() * kColumns / camera.width);
-  const double row = std::floor(pixel.y() * kRows / camera.height);
-  if (!(column >= 0.0 && column < kColumns && row >= 0.0 && row < kRows)) return std::nullopt;
-  return static_cast<size_t>(row * kColumns + column);
-}
-
+// Adds the landmarks of a kind that project into the image of a keyframe, observed there or not,
+// and whose excess is known well enough. The flag is cleared where there is no parallax any more.
 template <typename L>
-void AddLandmarks(const Map& map, const WindowData& window, const Keyframe& newest,
-                  const NoiseScale& scale, Parts* parts) {
+void AddLandmarks(const WindowData& window, const Keyframe& keyframe, const NoiseScale& scale,
+                  Map* map, std::vector<Cell>* cells) {
+  const PinholeCamera& camera = keyframe.frame->camera;
+  const ImageGrid grid(kColumns, kRows, camera);
   for (const auto& in_window : OfKind<L>(window)) {
-    const L* landmark = map.Find<L>(in_window.id);
+    const L* landmark = map->Find<L>(in_window.id);
     if (landmark == nullptr) continue;
-    const std::optional<size_t> part = PartOf(newest, landmark->Center());
-    if (!part) continue;
-    const std::optional<DepthExcess> excess = MeasureDepthExcess(map, *landmark, scale);
-    if (!excess || std::abs(excess->value) > kMaxExcess) continue;
-    if (excess->variance < kMaxSigma * kMaxSigma) {
-      OfKind<L>((*parts)[*part]).push_back({landmark->id, *excess});
+    const Eigen::Vector3d in_cam = keyframe.cam_from_world * landmark->Center();
+    if (!IsInFront(in_cam)) continue;
+    const Eigen::Vector2d pixel = camera.Project(in_cam);
+    if (!(pixel.x() >= 0.0 && pixel.x() < camera.width)) continue;
+    if (!(pixel.y() >= 0.0 && pixel.y() < camera.height)) continue;
+    const std::optional<DepthExcess> excess = MeasureDepthExcess(*map, *landmark, scale);
+    if (!excess) {
+      map->SetHasFalseDepth<L>(landmark->id, false);
+    } else if (excess->variance < kMaxSigma * kMaxSigma && std::abs(excess->value) < kMaxExcess) {
+      OfKind<L>((*cells)[grid.CellOf(pixel)]).push_back({landmark->id, *excess});
     }
   }
 }
@@ -92,13 +90,14 @@ void AddLandmarks(const Map& map, const WindowData& window, const Keyframe& newe
 // The excess of measurements that are not false.
 class TrueDepths {
  public:
-  // The shortest interval that contains half of the parts, since false ones lie to one side.
-  explicit TrueDepths(const std::vector<DepthExcess>& parts) {
+  // The shortest interval that contains more than half of the cells, since false depths lie to one
+  // side.
+  explicit TrueDepths(const std::vector<DepthExcess>& cells) {
     constexpr double kSigmaPerHalfWidth = 1.4826;  // of a normal distribution
     std::vector<double> values, variances;
-    for (const DepthExcess& part : parts) {
-      values.push_back(part.value);
-      variances.push_back(part.variance);
+    for (const DepthExcess& cell : cells) {
+      values.push_back(cell.value);
+      variances.push_back(cell.variance);
     }
     std::sort(values.begin(), values.end());
     std::sort(variances.begin(), variances.end());
@@ -118,7 +117,7 @@ class TrueDepths {
     const double variance = variance_ + excess.variance;
     if (difference <= 0.0) return false;
     const double log_true =
-        -0.5 * difference * difference / variance - 0.5 * std::log(2.0 * M_PI * variance);
+        -0.5 * difference * difference / variance - 0.5 * std::log(2.0 * kPi * variance);
     return std::log(kPrior / (1.0 - kPrior)) - std::log(kMaxExcess) > log_true;
   }
 
@@ -131,24 +130,23 @@ class TrueDepths {
 
 void FindFalseDepths(const WindowData& window, KeyframeId newest, const NoiseScale& scale,
                      Map* map) {
-  const Keyframe& keyframe = *map->FindKeyframe(newest);
-  Parts parts;
+  std::vector<Cell> cells(kColumns * kRows);
   ForEachLandmarkKind([&](auto kind) {
-    using L = typename decltype(kind)::Landmark;
-    AddLandmarks<L>(*map, window, keyframe, scale, &parts);
+    AddLandmarks<typename decltype(kind)::Landmark>(window, *map->FindKeyframe(newest), scale, map,
+                                                    &cells);
   });
   std::vector<DepthExcess> summaries;
-  for (const Part& part : parts) {
-    if (const auto summary = part.Summary()) summaries.push_back(*summary);
+  for (const Cell& cell : cells) {
+    if (const auto summary = cell.Summary()) summaries.push_back(*summary);
   }
-  if (summaries.size() < kMinParts) return;
+  if (summaries.size() < kMinCells) return;
   const TrueDepths true_depths(summaries);
-  for (const Part& part : parts) {
-    const std::optional<DepthExcess> summary = part.Summary();
+  for (const Cell& cell : cells) {
+    const std::optional<DepthExcess> summary = cell.Summary();
     const bool is_false = summary && true_depths.Exclude(*summary);
     ForEachLandmarkKind([&](auto kind) {
       using L = typename decltype(kind)::Landmark;
-      for (const auto& [id, excess] : OfKind<L>(part)) {
+      for (const auto& [id, excess] : OfKind<L>(cell)) {
         map->SetHasFalseDepth<L>(id, is_false || true_depths.Exclude(excess));
       }
     });

@@ -9,17 +9,18 @@
 
 namespace msc_vo {
 
-/// Finds the landmarks of an optimised window that the image shows behind the surface whose depth
-/// was measured (Landmark::has_false_depth): through a pane of glass, in a mirror, or beside an
-/// edge with the depth of a nearer surface.
+/// Flags the landmarks of an optimised window that the image shows behind the surface whose depth
+/// was measured (Landmark::has_false_depth): through a pane of glass, or beside an edge with the
+/// depth of a nearer surface. Clears the flag of the others.
 ///
-/// A depth is false if its excess (MeasureDepthExcess) is likelier to have any value up to a half
-/// than to be one of those of the image. These have in common what a wrong length of the motion
-/// causes. Parts of the image are tested as a whole, because the parallax of single landmarks is
-/// often too small, and landmarks one by one.
+/// A depth is false if its excess (MeasureDepthExcess) is likelier to have any value up to 0.5 than
+/// to come from the distribution of true depths, whose mean contains the error of the scale of the
+/// translation. Cells of the image are tested as a whole, because the parallax of single landmarks
+/// is often too small, and landmarks one by one.
 ///
-/// `newest`: the keyframe whose image is divided; landmarks that it does not show remain as they
-/// are. `scale`: of the sigmas of the features.
+/// `newest`: the keyframe whose image is divided into cells. Landmarks that do not project into it
+/// keep their flag, and so do all if fewer than six cells have three points with an excess.
+/// `scale`: factors on the sigmas of the features.
 void FindFalseDepths(const WindowData& window, KeyframeId newest, const NoiseScale& scale,
                      Map* map);
 

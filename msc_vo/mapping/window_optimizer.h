@@ -53,7 +53,7 @@ class WindowOptimizer {
   /// is not, or has a single keyframe. The submap must not change until EndWindow().
   /// `use_planes`: with the factors of its planes.
   std::unique_ptr<WindowTask> BeginWindow(KeyframeId keyframe, bool use_planes, SubMap* submap);
-  /// Writes the result of all slices back.
+  /// Writes the result of all slices back, and finds the landmarks with false depths.
   BundleAdjustmentSummary EndWindow(KeyframeId keyframe, const WindowTask& task, SubMap* submap);
   /// Bundle adjustment of all keyframes of a submap after a change of its calibration; the newest
   /// one is `keyframe`.

@@ -13,7 +13,7 @@ namespace msc_vo {
 namespace {
 
 // Moves the landmarks of a kind to the positions that the first of their observations with a depth
-// measures.
+// measures. Whether that is false is to be found again: a wrong calibration bends surfaces as well.
 template <typename L>
 void MoveLandmarks(Map* map) {
   std::vector<std::pair<LandmarkId, typename L::Geometry>> moved;
@@ -27,7 +27,10 @@ void MoveLandmarks(Map* map) {
       break;
     }
   }
-  for (const auto& [id, geometry] : moved) map->SetGeometry<L>(id, geometry);
+  for (const auto& [id, geometry] : moved) {
+    map->SetGeometry<L>(id, geometry);
+    map->SetHasFalseDepth<L>(id, false);
+  }
 }
 
 template <typename L>

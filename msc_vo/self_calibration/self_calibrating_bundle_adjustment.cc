@@ -112,6 +112,7 @@ SelfCalibratingReprojection::Measurement MeasurementOf(const Keyframe& keyframe,
   SelfCalibratingReprojection::Measurement measurement;
   measurement.pixel = MakePairView(frame.intrinsics->distortion, frame, observed).pixel;
   measurement.sigma = observed.sigma * point.noise;
+  if (point.has_false_depth) return measurement;
   measurement.inverse_depth = observed.inverse_depth;
   measurement.inverse_depth_sigma =
       std::hypot(observed.inverse_depth_sigma * point.noise, kDepthError * observed.inverse_depth);

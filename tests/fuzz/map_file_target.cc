@@ -24,8 +24,9 @@
 namespace msc_vo {
 namespace {
 
-constexpr const char* kTables[] = {"map",      "session",  "calibration", "submap", "keyframe",
-                                   "features", "features", "point",       "line",   "loop"};
+constexpr const char* kTables[] = {
+    "map",   "session", "calibration", "submap",         "keyframe",    "features", "features",
+    "point", "line",    "plane",       "plane_features", "false_depth", "loop"};
 
 // The folder and the bytes of a valid file.
 struct Files {

@@ -125,8 +125,10 @@ TEST_F(MapTest, RemovesTheLandmarkWithItsLastObservation) {
 TEST_F(MapTest, MergesObservationsWithoutCollision) {
   map_.Observe<PointLandmark>(a_, keyframes_[2], 0);
   map_.Observe<PointLandmark>(b_, keyframes_[2], 1);  // both observed in keyframe 2: one remains
+  map_.SetHasFalseDepth<PointLandmark>(b_, true);
   map_.MergeLandmarks<PointLandmark>(b_, a_);
   EXPECT_EQ(map_.Find<PointLandmark>(b_), nullptr);
+  EXPECT_TRUE(map_.Find<PointLandmark>(a_)->has_false_depth);
   EXPECT_EQ(map_.Find<PointLandmark>(a_)->observations.size(), 3u);
   EXPECT_EQ(map_.FindKeyframe(keyframes_[1])->landmarks.points[1], a_);
   EXPECT_EQ(map_.FindKeyframe(keyframes_[2])->landmarks.points[0], a_);

@@ -123,7 +123,11 @@ TEST_F(MapFileDamageTest, RefusesRowsThatDoNotFit) {
                           "UPDATE map SET next_keyframe = 1",
                           "UPDATE submap SET point_depth_noise = 2.0",
                           "UPDATE calibration SET fx = fx + 1",
-                          "UPDATE calibration SET lens = 'glass'"}) {
+                          "UPDATE calibration SET lens = 'glass'",
+                          "UPDATE false_depth SET landmark = 100000 WHERE landmark = (SELECT "
+                          "min(landmark) FROM false_depth)",
+                          "UPDATE false_depth SET checksum = checksum + 1",
+                          "INSERT INTO false_depth VALUES (-1, 0)"}) {
     Write(valid);
     Change(sql);
     EXPECT_THAT(Problem(), Names(path_, "damaged")) << sql;

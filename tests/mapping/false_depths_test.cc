@@ -24,8 +24,8 @@ constexpr KeyframeId kNewest = kNumKeyframes - 1;
 // A wall of points and lines, part of it behind a pane.
 class FalseDepthsTest : public testing::Test {
  protected:
-  // `measured_over_true`: ratio of the depth that is measured at a pixel of the newest keyframe to
-  // that of what it shows.
+  // Landmarks begin where they are measured. `measured_over_true`: ratio of the depth that is
+  // measured at a pixel of the newest keyframe to that of what it shows.
   template <typename Ratio>
   void Build(const Ratio& measured_over_true, double scale_of_motion = 1.0) {
     std::vector<Eigen::Vector3d> points;
@@ -63,8 +63,13 @@ class FalseDepthsTest : public testing::Test {
       }
       map_.AddKeyframe(frame, Pose(i, scale_of_motion));
     }
-    for (size_t i = 0; i < points.size(); ++i) Add<PointLandmark>(i, points[i]);
-    for (size_t i = 0; i < lines.size(); ++i) Add<LineLandmark>(i, lines[i]);
+    for (size_t i = 0; i < points.size(); ++i) {
+      Add<PointLandmark>(i, measured_over_true(InNewest(points[i])) * points[i]);
+    }
+    for (size_t i = 0; i < lines.size(); ++i) {
+      const double ratio = measured_over_true(InNewest(lines[i].Midpoint()));
+      Add<LineLandmark>(i, {ratio * lines[i].start, ratio * lines[i].end});
+    }
   }
 
   void Find() {
@@ -81,6 +86,17 @@ class FalseDepthsTest : public testing::Test {
     int count = 0;
     for (const auto& [id, landmark] : map_.landmarks<L>()) count += landmark.has_false_depth;
     return count;
+  }
+
+  // Expects the landmarks at the pixels of the newest keyframe that `is_false` holds for.
+  template <typename IsFalse>
+  void ExpectFalse(const IsFalse& is_false) const {
+    for (const auto& [id, point] : map_.points()) {
+      EXPECT_EQ(point.has_false_depth, is_false(InNewest(point.position))) << id;
+    }
+    for (const auto& [id, line] : map_.lines()) {
+      EXPECT_EQ(line.has_false_depth, is_false(InNewest(line.Center()))) << id;
+    }
   }
 
   PinholeCamera camera_{525.0, 525.0, 319.5, 239.5, 640, 480};
@@ -100,54 +116,68 @@ class FalseDepthsTest : public testing::Test {
 // The right upper part of the image, as a pane in front of what it shows.
 bool IsBehindPane(const Eigen::Vector2d& pixel) { return pixel.x() > 426.7 && pixel.y() < 240.0; }
 
-TEST_F(FalseDepthsTest, FindsWhatIsBehindAPane) {
+TEST_F(FalseDepthsTest, FlagsLandmarksBehindPane) {
   Build([](const Eigen::Vector2d& pixel) { return IsBehindPane(pixel) ? 0.95 : 1.0; });
   Find();
-  int num_points = 0;
-  for (const auto& [id, point] : map_.points()) {
-    const Eigen::Vector2d pixel = InNewest(point.position);
-    if (pixel.x() > 640.0 || pixel.y() < 0.0) continue;
-    EXPECT_EQ(point.has_false_depth, IsBehindPane(pixel)) << pixel.transpose();
-    num_points += point.has_false_depth;
-  }
-  EXPECT_GT(num_points, 50);
-  for (const auto& [id, line] : map_.lines()) {
-    const Eigen::Vector2d pixel = InNewest(line.Center());
-    if (pixel.x() < 640.0) {
-      EXPECT_EQ(line.has_false_depth, IsBehindPane(pixel));
-    }
-  }
+  ExpectFalse(IsBehindPane);
+  EXPECT_GT(NumFalse<PointLandmark>(), 50);
+  EXPECT_GT(NumFalse<LineLandmark>(), 3);
 }
 
-TEST_F(FalseDepthsTest, FindsASinglePoint) {
+// With two fifths of the depths too near, the motion of a window is too short: the excess of true
+// depths is as far below the mean as that of false ones is above it.
+TEST_F(FalseDepthsTest, FlagsLandmarksBehindPaneThatShortensTheMotion) {
+  const auto is_behind_pane = [](const Eigen::Vector2d& pixel) { return pixel.x() > 426.7; };
+  Build([&](const Eigen::Vector2d& pixel) { return is_behind_pane(pixel) ? 0.95 : 1.0; }, 0.98);
+  Find();
+  ExpectFalse(is_behind_pane);
+}
+
+TEST_F(FalseDepthsTest, FlagsSingleLandmark) {
   const Eigen::Vector2d place(140.0, 240.0);
   Build(
       [place](const Eigen::Vector2d& pixel) { return (pixel - place).norm() < 12.0 ? 0.85 : 1.0; });
   Find();
   EXPECT_EQ(NumFalse<PointLandmark>(), 1);
+  EXPECT_EQ(NumFalse<LineLandmark>(), 0);
 }
 
 TEST_F(FalseDepthsTest, AcceptsAWrongLengthOfTheMotion) {
-  Build([](const Eigen::Vector2d&) { return 1.0; }, 0.95);
+  Build([](const Eigen::Vector2d&) { return 1.0; }, 1.05);
   Find();
   EXPECT_EQ(NumFalse<PointLandmark>(), 0);
   EXPECT_EQ(NumFalse<LineLandmark>(), 0);
 }
 
-// A surface cannot be measured behind what the image shows.
+// The measured surface cannot be farther than the visible one.
 TEST_F(FalseDepthsTest, AcceptsDepthsThatAreTooFar) {
   Build([](const Eigen::Vector2d& pixel) { return IsBehindPane(pixel) ? 1.05 : 1.0; });
   Find();
   EXPECT_EQ(NumFalse<PointLandmark>(), 0);
+  EXPECT_EQ(NumFalse<LineLandmark>(), 0);
 }
 
-TEST_F(FalseDepthsTest, TakesBackWhatIsNotConfirmed) {
+TEST_F(FalseDepthsTest, ClearsUnsupportedFlag) {
   Build([](const Eigen::Vector2d&) { return 1.0; });
-  const LandmarkId point = map_.points().begin()->first;
-  const LandmarkId visible = point + 150;
-  map_.SetHasFalseDepth<PointLandmark>(visible, true);
+  for (const LandmarkId id : {map_.points().begin()->first, map_.lines().begin()->first}) {
+    if (map_.Find<PointLandmark>(id) != nullptr) map_.SetHasFalseDepth<PointLandmark>(id, true);
+    if (map_.Find<LineLandmark>(id) != nullptr) map_.SetHasFalseDepth<LineLandmark>(id, true);
+  }
   Find();
-  EXPECT_FALSE(map_.Find<PointLandmark>(visible)->has_false_depth);
+  EXPECT_EQ(NumFalse<PointLandmark>(), 0);
+  EXPECT_EQ(NumFalse<LineLandmark>(), 0);
+}
+
+TEST_F(FalseDepthsTest, ClearsFlagWithoutParallax) {
+  Build([](const Eigen::Vector2d& pixel) { return IsBehindPane(pixel) ? 0.95 : 1.0; });
+  Find();
+  LandmarkId flagged = kNoId;
+  for (const auto& [id, point] : map_.points()) {
+    if (point.has_false_depth) flagged = id;
+  }
+  for (int i = 0; i < kNumKeyframes - 1; ++i) map_.RemoveObservation<PointLandmark>(flagged, i);
+  Find();
+  EXPECT_FALSE(map_.Find<PointLandmark>(flagged)->has_false_depth);
 }
 
 TEST_F(FalseDepthsTest, LeavesOnlyThePixelsToWindows) {
