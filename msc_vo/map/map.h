@@ -247,6 +247,7 @@ void Map::RemoveObservation(LandmarkId id, KeyframeId keyframe) {
   L* const changed = Table<L>().FindToChange(id);
   EraseObservation(keyframe, changed);
   changed->descriptor_is_current = false;
+  if (changed->observations.size() == 1) changed->has_false_depth = false;  // has no parallax
 }
 
 template <typename L>

@@ -64,26 +64,24 @@ struct Cell {
 };
 
 // Adds the landmarks of a kind that project into the image of a keyframe, observed there or not,
-// and whose excess is known well enough. The flag is cleared where there is no parallax any more.
+// and whose excess is known well enough.
 template <typename L>
 void AddLandmarks(const WindowData& window, const Keyframe& keyframe, const NoiseScale& scale,
-                  Map* map, std::vector<Cell>* cells) {
+                  const Map& map, std::vector<Cell>* cells) {
   const PinholeCamera& camera = keyframe.frame->camera;
   const ImageGrid grid(kColumns, kRows, camera);
   for (const auto& in_window : OfKind<L>(window)) {
-    const L* landmark = map->Find<L>(in_window.id);
+    const L* landmark = map.Find<L>(in_window.id);
     if (landmark == nullptr) continue;
     const Eigen::Vector3d in_cam = keyframe.cam_from_world * landmark->Center();
     if (!IsInFront(in_cam)) continue;
     const Eigen::Vector2d pixel = camera.Project(in_cam);
     if (!(pixel.x() >= 0.0 && pixel.x() < camera.width)) continue;
     if (!(pixel.y() >= 0.0 && pixel.y() < camera.height)) continue;
-    const std::optional<DepthExcess> excess = MeasureDepthExcess(*map, *landmark, scale);
-    if (!excess) {
-      map->SetHasFalseDepth<L>(landmark->id, false);
-    } else if (excess->variance < kMaxSigma * kMaxSigma && std::abs(excess->value) < kMaxExcess) {
-      OfKind<L>((*cells)[grid.CellOf(pixel)]).push_back({landmark->id, *excess});
-    }
+    const std::optional<DepthExcess> excess = MeasureDepthExcess(map, *landmark, scale);
+    if (!excess || !(std::abs(excess->value) < kMaxExcess)) continue;
+    if (!(excess->variance < kMaxSigma * kMaxSigma)) continue;
+    OfKind<L>((*cells)[grid.CellOf(pixel)]).push_back({landmark->id, *excess});
   }
 }
 
@@ -132,7 +130,7 @@ void FindFalseDepths(const WindowData& window, KeyframeId newest, const NoiseSca
                      Map* map) {
   std::vector<Cell> cells(kColumns * kRows);
   ForEachLandmarkKind([&](auto kind) {
-    AddLandmarks<typename decltype(kind)::Landmark>(window, *map->FindKeyframe(newest), scale, map,
+    AddLandmarks<typename decltype(kind)::Landmark>(window, *map->FindKeyframe(newest), scale, *map,
                                                     &cells);
   });
   std::vector<DepthExcess> summaries;

@@ -22,8 +22,8 @@ PoseCovariance CommonViewCovariance();
 /// `systematic_length`, metres: 0 for a camera that is calibrated well, whose edges have
 /// independent errors. Otherwise the graph drifts as a path with systematic errors does. Such an
 /// error is common to all steps of a path, but edges are independent: so that the variances of the
-/// steps add up to f times the systematic error of a path of L metres, SystematicCovariance(f L), an
-/// edge of l metres gets SystematicCovariance(sqrt(l `systematic_length`)), where
+/// steps add up to f times the systematic error of a path of L metres, SystematicCovariance(f L),
+/// an edge of l metres gets SystematicCovariance(sqrt(l `systematic_length`)), where
 /// `systematic_length` is f^2 L. Edges that bridge the same step then repeat one measurement, so
 /// that the drift of each is multiplied by the number of them.
 PoseGraph MakeKeyframeGraph(const Map& map, const std::vector<PoseGraphEdge>& loops,
