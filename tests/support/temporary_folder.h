@@ -63,8 +63,8 @@ class TemporaryFolder : public testing::Test {
   std::filesystem::path folder_;
 };
 
-// A folder that has the same files at the begin of each test of a suite. The first test makes them; the others get a
-// copy at the same path, which the files may contain.
+// A folder that has the same files at the begin of each test of a suite. The first test makes them;
+// the others get a copy at the same path, which the files may contain.
 class PreparedFolder : public TemporaryFolder {
  protected:
   static void TearDownTestSuite() {
