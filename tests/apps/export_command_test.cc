@@ -26,10 +26,9 @@
 namespace msc_vo {
 namespace {
 
-class ExportCommandTest : public TemporaryFolder {
+class ExportCommandTest : public PreparedFolder {
  protected:
-  void SetUp() override {
-    TemporaryFolder::SetUp();
+  void Prepare() override {
     Run({"synthesize", Path("x"), "--frames", "12", "--width", "160"});
     Run({"replay", Path("x"), "--output", Path("run"), "--map", Path("x.map"), "--quiet"});
   }

@@ -25,11 +25,13 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-class MapCommandTest : public TemporaryFolder {
+// A sequence `room`, and a run `first` over it that has written home.map.
+class MapCommandTest : public PreparedFolder {
  protected:
-  void SetUp() override {
-    TemporaryFolder::SetUp();
+  void Prepare() override {
     RenderSequence(Path("room"), {"--scene", "room", "--frames", "60", "--width", "320"});
+    const CommandOutcome outcome = Replay("room", "first", {"--map", Path("home.map")});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   }
   CommandOutcome Replay(const std::string& sequence, const std::string& output,
                         const std::vector<std::string>& more) const {
@@ -41,10 +43,6 @@ class MapCommandTest : public TemporaryFolder {
                                           Path(output)};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
-  }
-  void MakeMap() const {
-    const CommandOutcome outcome = Replay("room", "first", {"--map", Path("home.map")});
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   }
   nlohmann::json Summary(const std::string& output) const {
     return nlohmann::json::parse(ReadFile(Path(output + "/summary.json")));
@@ -71,7 +69,6 @@ class MapCommandTest : public TemporaryFolder {
 };
 
 TEST_F(MapCommandTest, CreatesAMapWithoutAnEffectOnTheRun) {
-  MakeMap();
   ASSERT_EQ(Replay("room", "plain", {}).exit_code, 0);
   EXPECT_EQ(ReadFile(Path("first/trajectory.txt")), ReadFile(Path("plain/trajectory.txt")));
   EXPECT_FALSE(HasEntry(Path("home.map-journal")));
@@ -83,7 +80,6 @@ TEST_F(MapCommandTest, CreatesAMapWithoutAnEffectOnTheRun) {
 }
 
 TEST_F(MapCommandTest, ExportsFilesOfOtherPrograms) {
-  MakeMap();
   const CommandOutcome outcome =
       RunCommand({"map", "export", Path("home.map"), "--output", Path("export")});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
@@ -103,7 +99,6 @@ TEST_F(MapCommandTest, ExportsFilesOfOtherPrograms) {
 }
 
 TEST_F(MapCommandTest, ExtendsTheMapBySessionsThatFindThemselvesInIt) {
-  MakeMap();
   const int64_t num_first = SummarizeMap(Path("home.map")).submaps[0].num_points;
   ASSERT_EQ(Replay("room", "second", {"--map", Path("home.map")}).exit_code, 0);
   const auto segments = Summary("second")["segments"];
@@ -120,7 +115,6 @@ TEST_F(MapCommandTest, ExtendsTheMapBySessionsThatFindThemselvesInIt) {
 
 // Two runs of the same path that know nothing of each other, and one elsewhere.
 TEST_F(MapCommandTest, MergesMapsByTheirPlaces) {
-  MakeMap();
   ASSERT_EQ(Replay("room", "second", {"--map", Path("second.map")}).exit_code, 0);
   RenderSequence(Path("corridor"), {"--scene", "corridor", "--frames", "30", "--width", "320"});
   ASSERT_EQ(Replay("corridor", "elsewhere", {"--map", Path("corridor.map")}).exit_code, 0);
@@ -141,7 +135,6 @@ TEST_F(MapCommandTest, MergesMapsByTheirPlaces) {
 }
 
 TEST_F(MapCommandTest, RefusesToMergeWhatItCannot) {
-  MakeMap();
   EXPECT_EQ(RunCommand({"map", "merge", Path("home.map"), "--output", Path("a.map")}).exit_code, 2);
   EXPECT_EQ(RunCommand({"map", "merge", Path("home.map"), Path("home.map")}).exit_code, 2);
   EXPECT_EQ(RunCommand({"map", "check", Path("home.map"), Path("home.map")}).exit_code, 2);
@@ -162,7 +155,6 @@ TEST_F(MapCommandTest, RefusesToMergeWhatItCannot) {
 }
 
 TEST_F(MapCommandTest, LocalizesInAMapThatRemains) {
-  MakeMap();
   const std::string bytes = ReadFile(Path("home.map"));
   const CommandOutcome outcome = Replay("room", "today", {"--localize", Path("home.map")});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
@@ -184,7 +176,6 @@ TEST_F(MapCommandTest, LocalizesInAMapThatRemains) {
 }
 
 TEST_F(MapCommandTest, FailsWhereTheMapIsNeverFound) {
-  MakeMap();
   RenderSequence(Path("corridor"), {"--scene", "corridor", "--frames", "40", "--width", "320"});
   const CommandOutcome lost = Replay("corridor", "lost", {"--localize", Path("home.map")});
   EXPECT_EQ(lost.exit_code, 3);
@@ -222,24 +213,24 @@ TEST_F(MapCommandTest, RefusesFilesThatItCannotUse) {
 
 TEST_F(MapCommandTest, RefusesAMapThatAnotherRunExtends) {
   CommandProcess first(
-      Arguments("room", "first", {"--map", Path("home.map"), "--checkpoint-interval", "0"}));
-  for (int i = 0; i < 60000 && !HasEntry(Path("first/frames.csv")); ++i) usleep(1000);
+      Arguments("room", "running", {"--map", Path("new.map"), "--checkpoint-interval", "0"}));
+  for (int i = 0; i < 60000 && !HasEntry(Path("running/frames.csv")); ++i) usleep(1000);
   for (const std::vector<std::string>& arguments :
-       {Arguments("room", "second", {"--map", Path("home.map")}),
-        Arguments("room", "third", {"--localize", Path("home.map")}),
-        {"map", "info", Path("home.map")}}) {
+       {Arguments("room", "second", {"--map", Path("new.map")}),
+        Arguments("room", "third", {"--localize", Path("new.map")}),
+        {"map", "info", Path("new.map")}}) {
     const CommandOutcome refused = RunCommand(arguments);
     EXPECT_EQ(refused.exit_code, 1);
-    EXPECT_THAT(refused.output, Names("error:", Path("home.map"), "in use"));
+    EXPECT_THAT(refused.output, Names("error:", Path("new.map"), "in use"));
   }
   EXPECT_EQ(first.Wait(), 0) << first.output();
-  ExpectMap("home.map", 1);
+  ExpectMap("new.map", 1);
 }
 
 // Killed at some image, and continued to the map of a run that was not.
 TEST_F(MapCommandTest, KeepsTheMapOfAKilledRunAndResumes) {
   const std::vector<std::string> arguments =
-      Arguments("room", "out", {"--map", Path("home.map"), "--checkpoint-interval", "0"});
+      Arguments("room", "out", {"--map", Path("new.map"), "--checkpoint-interval", "0"});
   {
     CommandProcess replay(arguments);
     for (int i = 0; i < 60000; ++i) {
@@ -249,38 +240,36 @@ TEST_F(MapCommandTest, KeepsTheMapOfAKilledRunAndResumes) {
     replay.Signal(SIGKILL);
     ASSERT_EQ(replay.Wait(), -SIGKILL) << replay.output();
   }
-  std::filesystem::copy_file(Path("home.map"), Path("copy.map"));
-  if (HasEntry(Path("home.map-journal"))) {
-    std::filesystem::copy_file(Path("home.map-journal"), Path("copy.map-journal"));
+  std::filesystem::copy_file(Path("new.map"), Path("copy.map"));
+  if (HasEntry(Path("new.map-journal"))) {
+    std::filesystem::copy_file(Path("new.map-journal"), Path("copy.map-journal"));
   }
   ExpectMap("copy.map", 1);
   EXPECT_FALSE(LoadMap(Path("copy.map")).submaps.empty());
   const CommandOutcome resumed = RunCommand({"replay", "--resume", Path("out"), "--quiet"});
   ASSERT_EQ(resumed.exit_code, 0) << resumed.output;
-  MakeMap();  // extends it: the second session
-  ExpectMap("home.map", 2);
-  const CommandOutcome whole = Replay("room", "whole", {"--map", Path("whole.map")});
-  EXPECT_EQ(ReadFile(Path("out/trajectory.txt")), ReadFile(Path("whole/trajectory.txt")));
+  ASSERT_EQ(Replay("room", "second", {"--map", Path("new.map")}).exit_code, 0);
+  ExpectMap("new.map", 2);
+  EXPECT_EQ(ReadFile(Path("out/trajectory.txt")), ReadFile(Path("first/trajectory.txt")));
 }
 
 TEST_F(MapCommandTest, DoesNotResumeIntoAMapOfAnotherRun) {
   {
     CommandProcess replay(
-        Arguments("room", "out", {"--map", Path("home.map"), "--checkpoint-interval", "0"}));
+        Arguments("room", "out", {"--map", Path("new.map"), "--checkpoint-interval", "0"}));
     for (int i = 0; i < 60000 && !HasEntry(Path("out/checkpoint/state.bin")); ++i) usleep(1000);
     replay.Signal(SIGKILL);
     ASSERT_EQ(replay.Wait(), -SIGKILL) << replay.output();
   }
-  ASSERT_EQ(Replay("room", "other", {"--map", Path("home.map")}).exit_code, 0);
-  const std::string bytes = ReadFile(Path("home.map"));
+  ASSERT_EQ(Replay("room", "other", {"--map", Path("new.map")}).exit_code, 0);
+  const std::string bytes = ReadFile(Path("new.map"));
   const CommandOutcome resumed = RunCommand({"replay", "--resume", Path("out"), "--quiet"});
   EXPECT_EQ(resumed.exit_code, 1);
-  EXPECT_THAT(resumed.output, Names("error:", Path("home.map"), "another run", "--resume"));
-  EXPECT_TRUE(ReadFile(Path("home.map")) == bytes);
+  EXPECT_THAT(resumed.output, Names("error:", Path("new.map"), "another run", "--resume"));
+  EXPECT_TRUE(ReadFile(Path("new.map")) == bytes);
 }
 
 TEST_F(MapCommandTest, DoesNotResumeALocalizationInAMapThatHasGrown) {
-  MakeMap();
   {
     CommandProcess replay(
         Arguments("room", "out", {"--localize", Path("home.map"), "--checkpoint-interval", "0"}));
@@ -288,14 +277,13 @@ TEST_F(MapCommandTest, DoesNotResumeALocalizationInAMapThatHasGrown) {
     replay.Signal(SIGKILL);
     ASSERT_EQ(replay.Wait(), -SIGKILL) << replay.output();
   }
-  MakeMap();  // a second session
+  ASSERT_EQ(Replay("room", "second", {"--map", Path("home.map")}).exit_code, 0);
   const CommandOutcome resumed = RunCommand({"replay", "--resume", Path("out"), "--quiet"});
   EXPECT_EQ(resumed.exit_code, 1);
   EXPECT_THAT(resumed.output, Names("error:", Path("home.map"), "another run", "--resume"));
 }
 
 TEST_F(MapCommandTest, FindsItselfWithAnotherCamera) {
-  MakeMap();
   RenderSequence(Path("large"), {"--scene", "room", "--frames", "60", "--width", "400"});
   const CommandOutcome outcome = Replay("large", "large_out", {"--localize", Path("home.map")});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;

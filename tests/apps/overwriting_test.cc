@@ -88,8 +88,7 @@ TEST_F(OverwritingTest, RefusesToOverwriteResultsOfAnotherSequence) {
   EXPECT_NE(replay("chess/seq-01").exit_code, 1);  // the same again
   fs::rename(Path("chess"), Path("moved"));
   EXPECT_NE(replay("moved/seq-01").exit_code, 1);
-  EXPECT_THAT(replay("fire/seq-01", {"--overwrite"}).output,
-              testing::Not(HasSubstr("another sequence")));
+  EXPECT_NE(replay("fire/seq-01", {"--overwrite"}).exit_code, 1);
   EXPECT_THAT(ReadFile(Path("out/sequence.json")), HasSubstr("fire/seq-01"));
 }
 
@@ -122,8 +121,8 @@ TEST_F(OverwritingTest, BenchmarkRefusesToOverwriteResultsOfAnotherSequence) {
     EXPECT_THAT(benchmark(sequence), Names("another sequence", "--overwrite"));
   }
   EXPECT_EQ(Contents("out"), before);
-  EXPECT_THAT(benchmark("chess/seq-01"), testing::Not(HasSubstr("another sequence")));
-  EXPECT_THAT(benchmark("office", {"--overwrite"}), testing::Not(HasSubstr("another sequence")));
+  EXPECT_THAT(benchmark("chess/seq-01"), testing::Not(Names("--overwrite")));
+  EXPECT_THAT(benchmark("office", {"--overwrite"}), testing::Not(Names("--overwrite")));
 }
 
 TEST_F(OverwritingTest, RefusesToOverwriteTheConfiguration) {

@@ -19,8 +19,6 @@
 namespace msc_vo {
 namespace {
 
-using ::testing::HasSubstr;
-
 double RmsDirection(const WindowData& truth, const WindowData& solved) {
   double sum = 0.0;
   for (size_t i = 0; i < truth.lines.size(); ++i) {
@@ -345,10 +343,10 @@ TEST_F(StructuralTermsTest, InvalidInputThrowsAndNamesTheItem) {
   EXPECT_TRUE(SameState(data_, good));
   data_ = good;
   options_.manhattan.huber = 0.0;
-  EXPECT_THAT(message([](Data*) {}), HasSubstr("huber"));
+  EXPECT_THAT(message([](Data*) {}), Names("huber"));
   options_.manhattan.huber = 2.0;
   options_.reject_chi2_1 = 0.0;
-  EXPECT_THAT(message([](Data*) {}), HasSubstr("reject_chi2_1"));
+  EXPECT_THAT(message([](Data*) {}), Names("reject_chi2_1"));
 }
 
 }  // namespace

@@ -13,7 +13,6 @@ namespace msc_vo {
 namespace {
 
 using testing::ContainsRegex;
-using testing::HasSubstr;
 using testing::IsEmpty;
 using Poses = std::vector<Rigid3>;
 
@@ -86,14 +85,15 @@ TEST(DescribeUndetermined, NamesPositionsWhoseSquaresOverflow) {
 }
 
 TEST(DescribeUndetermined, NamesStraightLines) {
-  EXPECT_THAT(DescribeUndetermined(Straight(), Straight(), false), HasSubstr("straight line"));
+  EXPECT_THAT(DescribeUndetermined(Straight(), Straight(), false),
+              Names("straight line", "rotation"));
   EXPECT_THAT(DescribeUndetermined(Straight(), Scaled(Straight(), 0.5), true),
-              HasSubstr("straight line"));
+              Names("straight line", "rotation"));
   for (int seed = 0; seed < 20; ++seed) {
     const Poses noisy = WithNoise(Straight(), 1e-3, 0.0, seed);
-    EXPECT_THAT(DescribeUndetermined(Straight(), noisy, false), HasSubstr("straight line"));
+    EXPECT_THAT(DescribeUndetermined(Straight(), noisy, false), Names("straight line", "rotation"));
     EXPECT_THAT(DescribeUndetermined(noisy, WithNoise(Straight(), 1e-3, 0.0, 77), false),
-                HasSubstr("straight line"));
+                Names("straight line", "rotation"));
   }
 }
 
@@ -102,7 +102,8 @@ TEST(DescribeScaleContradiction, NamesTheFactorOfWrongUnits) {
               Names("reference path", "5.0", "depth_scale"));
   EXPECT_THAT(DescribeScaleContradiction(Path(), Scaled(Path(), 5.0)),
               Names("estimated path", "5.0", "depth_scale"));
-  EXPECT_THAT(DescribeScaleContradiction(Scaled(Path(), 1000.0), Path()), HasSubstr("1000 times"));
+  EXPECT_THAT(DescribeScaleContradiction(Scaled(Path(), 1000.0), Path()),
+              Names("reference path", "1000", "depth_scale"));
   for (int seed = 0; seed < 20; ++seed) {
     EXPECT_THAT(DescribeScaleContradiction(Path(), WithNoise(Scaled(Path(), 0.25), 2e-3, 0, seed)),
                 Names("reference path", "depth_scale"));

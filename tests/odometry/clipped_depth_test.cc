@@ -7,6 +7,7 @@
 #include <memory>
 #include <sstream>
 
+#include "tests/support/message_matchers.h"
 #include "tests/support/rendered_images.h"
 #include <gmock/gmock.h>
 #include <spdlog/sinks/ostream_sink.h>
@@ -18,7 +19,6 @@
 namespace msc_vo {
 namespace {
 
-using testing::HasSubstr;
 using testing::Not;
 
 constexpr float kFarthest = 2.5f, kNearest = 1.7f;  // metres
@@ -77,9 +77,9 @@ TEST_F(ClippedDepthRunTest, LogsTheLimits) {
   Log().sinks() = {std::make_shared<spdlog::sinks::ostream_sink_mt>(text)};
   Log().set_level(spdlog::level::warn);
   Run(*images_);
-  EXPECT_THAT(text.str(), Not(HasSubstr("clipped")));
+  EXPECT_THAT(text.str(), Not(Names("clipped")));
   Run(Clipped());
-  EXPECT_THAT(text.str(), HasSubstr("depth is clipped at 2.500 m"));
+  EXPECT_THAT(text.str(), LineNames("clipped", "2.500 m"));
   Log().set_level(spdlog::level::off);
   Log().sinks() = silent;
 }

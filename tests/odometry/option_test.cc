@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "tests/support/message_matchers.h"
 #include <gmock/gmock.h>
 
 namespace msc_vo {
@@ -86,9 +87,7 @@ TEST(OptionRanges, AreValidExactlyWithinTheirRange) {
     const bool whole = IsWhole(list[i]);
     for (const double beyond : {whole ? range.min - 1.0 : std::nextafter(range.min, -inf),
                                 whole ? range.max + 1.0 : std::nextafter(range.max, inf)}) {
-      EXPECT_THAT(ErrorWith(i, beyond), HasSubstr(list[i].path + " = ")) << beyond;
-      EXPECT_THAT(ErrorWith(i, beyond), HasSubstr("must be from " + ToString(range)))
-          << list[i].path;
+      EXPECT_THAT(ErrorWith(i, beyond), Names(list[i].path + " = ", ToString(range))) << beyond;
     }
     if (whole) continue;
     EXPECT_THAT(ErrorWith(i, std::nan("")), HasSubstr(list[i].path + " = nan"));

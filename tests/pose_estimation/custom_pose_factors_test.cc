@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "tests/support/factor_checks.h"
+#include "tests/support/message_matchers.h"
 #include "tests/support/test_window.h"
 #include <gmock/gmock.h>
 
@@ -17,7 +18,6 @@
 namespace msc_vo {
 namespace {
 
-using ::testing::HasSubstr;
 constexpr int kFrame = 4;  // of the synthetic window
 
 Rigid3 Truth(const TestWindow& window) { return window.truth.keyframes[kFrame].cam_from_world; }
@@ -215,16 +215,13 @@ TEST(CustomPoseFactors, NameTheInvalidFactor) {
     return std::string("nothing was thrown");
   };
   const double below = good.cam_from_world.translation().x() - 1.0;
-  EXPECT_THAT(message(nullptr), HasSubstr("custom factor 'wheel': its cost function is null"));
-  EXPECT_THAT(message(std::make_shared<TwoBlocks>()),
-              HasSubstr("'wheel': the number of parameter blocks of its cost function is 2"));
-  EXPECT_THAT(message(std::make_shared<Landmark>()),
-              HasSubstr("'wheel': its cost function has size 3 for parameter block 0, but the pose "
-                        "of the frame has size 7"));
-  EXPECT_THAT(message(std::make_shared<NoRows>()), HasSubstr("'wheel': its cost function has no "));
+  EXPECT_THAT(message(nullptr), Names("'wheel'", "null"));
+  EXPECT_THAT(message(std::make_shared<TwoBlocks>()), Names("'wheel'", "parameter block", "2"));
+  EXPECT_THAT(message(std::make_shared<Landmark>()), Names("'wheel'", "3", "block 0", "7"));
+  EXPECT_THAT(message(std::make_shared<NoRows>()), Names("'wheel'", "residual"));
   for (const bool fails : {false, true}) {
     EXPECT_THAT(message(std::make_shared<LimitedCost>(below, fails)),
-                HasSubstr("'wheel': it cannot be evaluated at the initial values"));
+                Names("'wheel'", "evaluated"));
   }
   EXPECT_EQ(message(std::make_shared<LimitedCost>(1e9, true)), "nothing was thrown");
 }

@@ -16,8 +16,6 @@
 namespace msc_vo {
 namespace {
 
-using ::testing::HasSubstr;
-
 bool IsSameDepth(const LineDepth& a, const LineDepth& b) {
   return a.start == b.start && a.end == b.end && a.covariance == b.covariance;
 }
@@ -296,9 +294,9 @@ TEST_P(FrameStructureTest, ChecksItsOptions) {
     return options.IsValid(&error);
   };
   EXPECT_FALSE(is_valid(&FrameStructureOptions::max_angle, 45.0));
-  EXPECT_THAT(error, HasSubstr("max_angle"));
+  EXPECT_THAT(error, Names("max_angle"));
   EXPECT_FALSE(is_valid(&FrameStructureOptions::pair_sigma, 0.0));
-  EXPECT_THAT(error, HasSubstr("pair_sigma"));
+  EXPECT_THAT(error, Names("pair_sigma"));
   options_.pair_sigma = -1.0;
   std::vector<StructureLine> none;
   EXPECT_THROW(RefineFrameStructure(options_, PinholeCamera(), &none), std::invalid_argument);

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/message_matchers.h"
 #include "tests/support/synthetic_frames.h"
 #include "tests/support/synthetic_map.h"
 #include <gmock/gmock.h>
@@ -191,7 +192,7 @@ TEST(StructuralPairOptions, ChecksItsOptions) {
   EXPECT_TRUE(options.IsValid(&error));
   options.max_angle = 0.0;
   EXPECT_FALSE(options.IsValid(&error));
-  EXPECT_THAT(error, ::testing::HasSubstr("max_angle"));
+  EXPECT_THAT(error, Names("max_angle"));
   EXPECT_THROW(StructuralPairs{options}, std::invalid_argument);
 }
 

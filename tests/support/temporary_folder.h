@@ -24,6 +24,11 @@ class TemporaryFolder : public testing::Test {
     ASSERT_NE(mkdtemp(name.data()), nullptr);
     folder_ = name;
   }
+  // The folder has this path instead.
+  void SetUpAt(const std::string& path) {
+    std::filesystem::create_directories(path);
+    folder_ = path;
+  }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
   std::string Path(const std::string& name) const {
@@ -56,6 +61,37 @@ class TemporaryFolder : public testing::Test {
   }
 
   std::filesystem::path folder_;
+};
+
+// A folder that has the same files at the begin of each test of a suite. The first test makes them;
+// the others get a copy at the same path, which the files may contain.
+class PreparedFolder : public TemporaryFolder {
+ protected:
+  static void TearDownTestSuite() {
+    if (!prepared_.empty()) std::filesystem::remove_all(prepared_);
+    path_.clear();
+    prepared_.clear();
+  }
+  void SetUp() override {
+    namespace fs = std::filesystem;
+    if (!path_.empty()) {
+      SetUpAt(path_);
+      fs::copy(prepared_, path_, fs::copy_options::recursive);
+      return;
+    }
+    TemporaryFolder::SetUp();
+    Prepare();
+    path_ = Folder();
+    prepared_ = path_ + "_prepared";
+    fs::copy(path_, prepared_, fs::copy_options::recursive);
+  }
+
+  // Makes the files.
+  virtual void Prepare() = 0;
+
+ private:
+  static inline std::string path_;
+  static inline std::string prepared_;
 };
 
 // The message of the exception that `action` throws; empty if it throws none.

@@ -3,6 +3,7 @@
 
 #include "msc_vo/tracking/keyframe_policy.h"
 
+#include "tests/support/message_matchers.h"
 #include <gmock/gmock.h>
 
 namespace msc_vo {
@@ -135,7 +136,7 @@ TEST(KeyframePolicy, ChecksItsOptions) {
   EXPECT_TRUE(options.IsValid(&error));
   options.max_interval = 0.01;
   EXPECT_FALSE(options.IsValid(&error));
-  EXPECT_THAT(error, ::testing::HasSubstr("max_interval"));
+  EXPECT_THAT(error, Names("max_interval"));
 }
 
 }  // namespace

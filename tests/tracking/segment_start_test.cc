@@ -3,6 +3,7 @@
 
 #include "msc_vo/tracking/segment_start.h"
 
+#include "tests/support/message_matchers.h"
 #include <gmock/gmock.h>
 
 namespace msc_vo {
@@ -85,7 +86,7 @@ TEST_F(SegmentStartTest, RefusesInvalidOptions) {
   SegmentOptions options;
   options.max_search = -0.5;
   EXPECT_FALSE(options.IsValid(&error));
-  EXPECT_THAT(error, testing::HasSubstr("max_search"));
+  EXPECT_THAT(error, Names("max_search"));
 }
 
 }  // namespace
