@@ -215,11 +215,11 @@ TEST_F(LoopCovarianceTest, IsThatOfThePathWithoutLoops) {
 
 TEST_F(LoopCovarianceTest, GoesOnToACameraNearAKeyframe) {
   const PathCovariances covariances(map_, {}, 0);
-  const Rigid3 cam_from_keyframe(ExpSO3({0.0, 0.5, 0.0}), {0.6, 0.0, 0.8});  // 1 m
+  const Rigid3 cam_from_keyframe(ExpSO3({0.0, -0.5, 0.0}), {0.6, 0.0, 0.8});  // 1 m
   const PoseCovariance camera = covariances.Of(2, cam_from_keyframe);
   // The rotation, 10 mrad twice with four times the variance, has a lever of 1 m across it.
   const double length = 2.0 * 8.0 * std::sin(M_PI / kNumKeyframes) + 1.0;
-  const double turn = 2.0 * kTurnStep - 0.5;  // the camera looks back
+  const double turn = 2.0 * kTurnStep + 0.5;
   const double systematic =
       std::pow(0.05 * M_PI / 180.0 * length, 2) + std::pow(kTurnRatio * turn, 2);
   EXPECT_NEAR(camera(1, 1), 8.0 * std::pow(0.01, 2) + systematic, 1e-9);
