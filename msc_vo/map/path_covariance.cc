@@ -4,6 +4,7 @@
 #include "msc_vo/map/path_covariance.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <queue>
 #include <utility>
@@ -21,41 +22,72 @@ namespace {
 // Variance of a step relative to that of the pose, which holds the landmarks for exact: they err as
 // well, and neighbours share their errors, so that those of the steps add up faster.
 constexpr double kStepScale = 4.0;
-// What errors of the calibration and of the depth sensor add, which are the same in every step: per
-// metre of the path. Both are measured, see docs/lab/loops.md.
+// What errors of the calibration and of the depth sensor add, which are the same in every step. All
+// are measured, see docs/lab/loops.md.
+// Per metre of the path:
 constexpr double kSystematicSigma = 0.005;                           // metres
 constexpr double kSystematicRotationSigma = DegreesToRadians(0.05);  // radians
+// Ratio of the turn: a wrong focal length errs by a ratio of each angle.
+constexpr double kTurnSigma = 0.005;
+// Where the surfaces are, metres: a motion across the view looks like a turn about its surface.
+constexpr double kViewDistance = 2.5;
 
 }  // namespace
 
-PoseCovariance SystematicCovariance(double length) {
-  return IsotropicCovariance(kSystematicRotationSigma * length, kSystematicSigma * length);
+PoseCovariance SystematicCovariance(double length, double turn) {
+  return IsotropicCovariance(std::hypot(kSystematicRotationSigma * length, kTurnSigma * turn),
+                             kSystematicSigma * length);
 }
 
-void PathDrift::AddStep(const Rigid3& base_from_cam, const PoseCovariance& covariance,
-                        double length) {
-  steps_ += TransportCovariance(base_from_cam, kStepScale * covariance);
-  length_ += length;
+void PathDrift::AddStep(const Rigid3& base_from_begin, const Rigid3& base_from_end,
+                        const PoseCovariance& covariance) {
+  const Eigen::Vector3d &begin = base_from_begin.translation(), &end = base_from_end.translation();
+  const Eigen::Quaterniond rotation =
+      base_from_end.rotation() * base_from_begin.rotation().conjugate();
+  const Eigen::Vector3d turn = LogSO3(rotation);
+  steps_ += kStepScale * covariance;
+  length_ += (end - begin).norm();
+  turn_ += turn;
+  lever_ += 0.5 * (begin + end) * turn.transpose();
+  view_change_ += base_from_end.rotation() * Eigen::Vector3d::UnitZ() -
+                  base_from_begin.rotation() * Eigen::Vector3d::UnitZ();
 }
 
-PoseCovariance PathDrift::At(const Rigid3& cam_from_base, double length) const {
-  return StepsAt(cam_from_base) + SystematicCovariance(length_ + length);
+// The rotation vector w of a step at the place p errs by E w, with a matrix E whose entries are
+// independent and the same in all steps: column j of E is a rotation by the sum of w_j, with the
+// lever of the sum of w_j p.
+PoseCovariance PathDrift::TurnCovariance() const {
+  PoseCovariance covariance;
+  covariance.topLeftCorner<3, 3>() = turn_.squaredNorm() * Eigen::Matrix3d::Identity();
+  covariance.bottomLeftCorner<3, 3>() = Skew(lever_ * turn_);
+  covariance.topRightCorner<3, 3>() = covariance.bottomLeftCorner<3, 3>().transpose();
+  covariance.bottomRightCorner<3, 3>() =
+      lever_.squaredNorm() * Eigen::Matrix3d::Identity() - lever_ * lever_.transpose();
+  return kTurnSigma * kTurnSigma * covariance;
 }
 
-double PathDrift::Trace() const { return steps_.trace() + SystematicCovariance(length_).trace(); }
+PoseCovariance PathDrift::At(const Rigid3& cam_from_base, double factor) const {
+  const PoseCovariance systematic =
+      SystematicCovariance(length_, 0.0) + TransportCovariance(cam_from_base, TurnCovariance()) +
+      IsotropicCovariance(0.0, kTurnSigma * kViewDistance * view_change_.norm());
+  return StepsAt(cam_from_base) + factor * factor * systematic;
+}
+
+double PathDrift::Trace() const {
+  return steps_.trace() + SystematicCovariance(length_, 0.0).trace();
+}
 
 PathDrift DriftBetween(const Map& map, KeyframeId a, KeyframeId b) {
   const Rigid3 b_from_world = map.CamFromWorld(b);
   const KeyframeId first = std::min(a, b), last = std::max(a, b);
-  Rigid3 before_from_world = map.CamFromWorld(first);
+  Rigid3 b_from_begin = b_from_world * map.CamFromWorld(first).Inverse();
   PathDrift drift;
   for (KeyframeId id = first + 1; id <= last; ++id) {
     const PoseCovariance* step = map.StepCovariance(id);
     if (step == nullptr) continue;
-    const Rigid3 step_from_world = map.CamFromWorld(id);
-    const double length = (step_from_world * before_from_world.Inverse()).translation().norm();
-    before_from_world = step_from_world;
-    drift.AddStep(b_from_world * step_from_world.Inverse(), *step, length);
+    const Rigid3 b_from_end = b_from_world * map.CamFromWorld(id).Inverse();
+    drift.AddStep(b_from_begin, b_from_end, TransportCovariance(b_from_end, *step));
+    b_from_begin = b_from_end;
   }
   return drift;
 }
@@ -79,14 +111,17 @@ std::vector<PathCovariances::Edge> PathCovariances::EdgesOf(
     const Map& map, const std::vector<PoseGraphEdge>& loops) const {
   std::vector<Edge> edges;
   for (size_t i = 1; i < nodes_.size(); ++i) {
-    edges.push_back({i - 1, i, *map.StepCovariance(nodes_[i].id)});
+    edges.push_back(
+        {i - 1, i,
+         TransportCovariance(nodes_[i].root_from_cam, *map.StepCovariance(nodes_[i].id))});
   }
   for (const PoseGraphEdge& loop : loops) {
     const Node *from = Find(loop.from), *to = Find(loop.to);
     if (from == nullptr || to == nullptr) continue;
     edges.push_back({static_cast<size_t>(from - nodes_.data()),
                      static_cast<size_t>(to - nodes_.data()),
-                     CameraCovariance(loop.to_from_from, loop.covariance)});
+                     TransportCovariance(to->root_from_cam,
+                                         CameraCovariance(loop.to_from_from, loop.covariance))});
   }
   return edges;
 }
@@ -110,11 +145,8 @@ void PathCovariances::FindPaths(const std::vector<Edge>& edges, size_t root) {
     for (const Edge* edge : edges_of[index]) {
       Node& next = nodes_[edge->from == index ? edge->to : edge->from];
       if (next.cost <= cost) continue;  // its path is final
-      const Rigid3& root_from_to = nodes_[edge->to].root_from_cam;
-      const double length =
-          (root_from_to.translation() - nodes_[edge->from].root_from_cam.translation()).norm();
       PathDrift drift = nodes_[index].drift;
-      drift.AddStep(root_from_to, edge->covariance, length);
+      drift.AddStep(nodes_[index].root_from_cam, next.root_from_cam, edge->covariance);
       const double next_cost = drift.Trace();
       if (next_cost >= next.cost) continue;
       next.drift = drift;
@@ -126,8 +158,10 @@ void PathCovariances::FindPaths(const std::vector<Edge>& edges, size_t root) {
 
 PoseCovariance PathCovariances::Of(KeyframeId keyframe, const Rigid3& cam_from_keyframe) const {
   const Node* node = Find(keyframe);
-  return node->drift.At(cam_from_keyframe * node->root_from_cam.Inverse(),
-                        cam_from_keyframe.translation().norm());
+  const Rigid3 root_from_cam = node->root_from_cam * cam_from_keyframe.Inverse();
+  PathDrift drift = node->drift;
+  drift.AddStep(node->root_from_cam, root_from_cam, PoseCovariance::Zero());
+  return drift.At(root_from_cam.Inverse());
 }
 
 PoseCovariance PathCovariances::OfRoot(KeyframeId keyframe) const {

@@ -13,44 +13,55 @@
 
 namespace msc_vo {
 
-/// The systematic part of the drift: what errors of the calibration and of the depth sensor, which
-/// are the same in every step, add to a path of `length` metres. Camera frame.
-PoseCovariance SystematicCovariance(double length);
+/// The systematic part of the drift of a path of `length` metres on which the camera turns by
+/// `turn` radians, apart from lever arms. Camera frame.
+PoseCovariance SystematicCovariance(double length, double turn);
 
 /// Drift of the odometry along a path, as a covariance: each step adds the error of a tracked pose,
-/// and each metre that of the calibration and of the depth sensor. Steps are summed in a fixed
-/// frame, the base.
+/// and the path as a whole has what errors of the calibration and of the depth sensor, which are
+/// the same in every step, add up to. Steps are summed in a fixed frame, the base.
 class PathDrift {
  public:
-  /// Adds a step of `length` metres to a camera. `covariance`: that of its tracked pose, in its own
-  /// frame (CameraCovariance()).
-  void AddStep(const Rigid3& base_from_cam, const PoseCovariance& covariance, double length);
+  /// Adds a step between two cameras. `covariance`: of the tracked pose of one of them, in the base
+  /// frame (TransportCovariance() of CameraCovariance()).
+  void AddStep(const Rigid3& base_from_begin, const Rigid3& base_from_end,
+               const PoseCovariance& covariance);
   /// Adds another independent error of a camera on the path, in its own frame.
   void AddError(const Rigid3& base_from_cam, const PoseCovariance& covariance) {
     steps_ += TransportCovariance(base_from_cam, covariance);
   }
-  /// Covariance of the pose of a camera relative to the begin of the path, in the frame of the
-  /// camera, that is `length` metres behind the last step.
-  PoseCovariance At(const Rigid3& cam_from_base, double length = 0.0) const;
+  /// Covariance of the pose of a camera, the last one of the path, relative to the begin of the
+  /// path, in the frame of the camera. The systematic part is multiplied by `factor`^2.
+  PoseCovariance At(const Rigid3& cam_from_base, double factor = 1.0) const;
   /// The same without the systematic part.
   PoseCovariance StepsAt(const Rigid3& cam_from_base) const {
     return TransportCovariance(cam_from_base, steps_);
   }
   /// Of the path, metres.
   double length() const { return length_; }
-  /// Trace of the covariance in the base frame.
+  /// The rotation vectors of all steps added up, base frame, radians: whole turns count, and
+  /// turning back undoes a turn.
+  const Eigen::Vector3d& turn() const { return turn_; }
+  /// Trace of the covariance in the base frame, without the part of the turn: what only grows along
+  /// a path.
   double Trace() const;
 
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [steps, path_length] = *this;  // all members, or it does not compile
-    archive(steps, path_length);
+    auto& [steps, path_length, turn, lever, view] = *this;  // all members, or it does not compile
+    archive(steps, path_length, turn, lever, view);
   }
 
  private:
-  PoseCovariance steps_ = PoseCovariance::Zero();  // in the base frame
-  double length_ = 0.0;                            // metres
+  // Of rotations by the turn that err by an unknown ratio, in the base frame.
+  PoseCovariance TurnCovariance() const;
+
+  PoseCovariance steps_ = PoseCovariance::Zero();    // in the base frame
+  double length_ = 0.0;                              // metres
+  Eigen::Vector3d turn_ = Eigen::Vector3d::Zero();   // radians
+  Eigen::Matrix3d lever_ = Eigen::Matrix3d::Zero();  // sum of place * turn^T, metres * radians
+  Eigen::Vector3d view_change_ = Eigen::Vector3d::Zero();  // of the direction of view
 };
 
 /// The drift of the odometry from keyframe `a` to `b`, along the whole path between them in the
@@ -60,8 +71,8 @@ PathDrift DriftBetween(const Map& map, KeyframeId a, KeyframeId b);
 /// How uncertain the poses of all keyframes are relative to one of them, the root. The steps of
 /// odometry and the closed loops link the keyframes to a graph; an edge of a loop is a step between
 /// the two keyframes that show one place. The covariance of a pose is that along the path through
-/// the graph with the smallest trace (metres and radians, frame of the root). It is not smaller
-/// than the marginal covariance of the graph, to which the other paths add information.
+/// the graph with the smallest PathDrift::Trace() (frame of the root). Its part by the steps is not
+/// smaller than the marginal covariance of the graph, to which the other paths add information.
 class PathCovariances {
  public:
   /// `loops`: those of keyframes that the map does not know are left out. `root` is or was in the
@@ -87,7 +98,7 @@ class PathCovariances {
   struct Edge {
     size_t from = 0;
     size_t to = 0;
-    PoseCovariance covariance;
+    PoseCovariance covariance;  // frame of the root
   };
 
   const Node* Find(KeyframeId keyframe) const;  // nullptr: not known

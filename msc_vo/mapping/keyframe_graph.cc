@@ -28,15 +28,19 @@ Rigid3 RelativePose(const Map& map, KeyframeId a, KeyframeId b) {
 struct Link {
   size_t a = 0, b = 0;  // positions of the keyframes in the map, a < b
   Rigid3 b_from_a;
+  double extent = 0.0;
   PoseCovariance drift;  // of the camera of b
 };
+
+// How much a camera moves on a path: a radian counts as a metre.
+double ExtentOf(const PathDrift& path) { return path.length() + path.turn().norm(); }
 
 // The links of a map. Most steps are bridged by several: by their own and by those of pairs of
 // keyframes before and after them.
 class KeyframeLinks {
  public:
-  KeyframeLinks(const Map& map, double systematic_length)
-      : map_(map), systematic_length_(systematic_length) {
+  KeyframeLinks(const Map& map, const SystematicDrift& systematic)
+      : map_(map), systematic_(systematic) {
     for (const auto& [id, keyframe] : map.keyframes()) {
       positions_[id] = ids_.size();
       ids_.push_back(id);
@@ -53,7 +57,7 @@ class KeyframeLinks {
     std::vector<PoseGraphEdge> edges;
     for (const Link& link : links_) {
       double num_bridging = 1.0;
-      if (systematic_length_ > 0.0) {
+      if (systematic_.length + systematic_.turn > 0.0) {
         const double mean = (sums[link.b] - sums[link.a]) / static_cast<double>(link.b - link.a);
         num_bridging = std::max(1.0, mean);
       }
@@ -67,7 +71,7 @@ class KeyframeLinks {
  private:
   void AddStep(KeyframeId a, KeyframeId b) {
     const PathDrift drift = DriftBetween(map_, a, b);
-    path_lengths_.push_back(path_lengths_.back() + drift.length());
+    extents_.push_back(extents_.back() + ExtentOf(drift));
     Add(a, b, drift);
   }
   void AddPair(KeyframeId a, KeyframeId b) {
@@ -75,24 +79,25 @@ class KeyframeLinks {
     const Rigid3 b_from_a = RelativePose(map_, a, b);
     PathDrift drift;
     drift.AddError(b_from_a, *map_.StepCovariance(a));
-    drift.AddStep(Rigid3(), *map_.StepCovariance(b), b_from_a.translation().norm());
+    drift.AddStep(b_from_a, Rigid3(), *map_.StepCovariance(b));
     Add(a, b, drift);
   }
   // `drift`: base: `b`.
   void Add(KeyframeId a, KeyframeId b, const PathDrift& drift) {
-    links_.push_back({positions_[a], positions_[b], RelativePose(map_, a, b),
+    links_.push_back({positions_[a], positions_[b], RelativePose(map_, a, b), ExtentOf(drift),
                       drift.StepsAt(Rigid3()) +
-                          SystematicCovariance(std::sqrt(drift.length() * systematic_length_))});
+                          SystematicCovariance(std::sqrt(systematic_.length * drift.length()),
+                                               std::sqrt(systematic_.turn * drift.turn().norm()))});
   }
 
   // For every keyframe, the sum over the steps before it of the number of links that bridge the
-  // step. A link counts by its length relative to the path between its keyframes: one that closes a
-  // loop does not repeat the steps of the path.
+  // step. A link counts by its extent relative to the path between its keyframes: one that closes
+  // a loop does not repeat the steps of the path.
   std::vector<double> SumsOfBridgingLinks() const {
     std::vector<double> sums(ids_.size() + 1, 0.0);
     for (const Link& link : links_) {
-      const double path = path_lengths_[link.b] - path_lengths_[link.a];
-      const double weight = path > 0.0 ? link.b_from_a.translation().norm() / path : 1.0;
+      const double path = extents_[link.b] - extents_[link.a];
+      const double weight = path > 0.0 ? link.extent / path : 1.0;
       sums[link.a + 1] += weight;
       sums[link.b + 1] -= weight;
     }
@@ -101,10 +106,10 @@ class KeyframeLinks {
   }
 
   const Map& map_;
-  double systematic_length_;
+  SystematicDrift systematic_;
   std::vector<KeyframeId> ids_;
   std::map<KeyframeId, size_t> positions_;
-  std::vector<double> path_lengths_ = {0.0};  // metres, up to each keyframe
+  std::vector<double> extents_ = {0.0};  // sums up to each keyframe
   std::vector<Link> links_;
 };
 
@@ -123,10 +128,10 @@ KeyframeId Representative(const Map& map, KeyframeId id) {
 PoseCovariance CommonViewCovariance() { return IsotropicCovariance(kRotationSigma, kSigma); }
 
 PoseGraph MakeKeyframeGraph(const Map& map, const std::vector<PoseGraphEdge>& loops,
-                            double systematic_length) {
+                            const SystematicDrift& systematic) {
   PoseGraph graph;
   for (const auto& [id, keyframe] : map.keyframes()) graph.poses[id] = keyframe.cam_from_world;
-  graph.edges = KeyframeLinks(map, systematic_length).Edges();
+  graph.edges = KeyframeLinks(map, systematic).Edges();
   for (const PoseGraphEdge& loop : loops) {
     const KeyframeId from = Representative(map, loop.from), to = Representative(map, loop.to);
     if (from == kNoId || to == kNoId || from == to) continue;

@@ -15,18 +15,24 @@ namespace msc_vo {
 /// poses in a window, in the camera frame.
 PoseCovariance CommonViewCovariance();
 
+/// The systematic errors that explain a loop of L metres on which the camera turns by W radians.
+struct SystematicDrift {
+  double length = 0.0;  ///< f^2 L, metres; f: relative to SystematicCovariance(L, W)
+  double turn = 0.0;    ///< f^2 W, radians
+};
+
 /// The keyframes of a map as a pose graph: the steps of odometry, pairs of keyframes that share
 /// landmarks, and `loops`, whose keyframes are represented by those before them if they were
 /// culled.
 ///
-/// `systematic_length`, metres: 0 for a camera that is calibrated well, whose edges have
-/// independent errors. Otherwise the graph drifts as a path with systematic errors does. Such an
-/// error is common to all steps of a path, but edges are independent: so that the variances of the
-/// steps add up to f times the systematic error of a path of L metres, SystematicCovariance(f L),
-/// an edge of l metres gets SystematicCovariance(sqrt(l `systematic_length`)), where
-/// `systematic_length` is f^2 L. Edges that bridge the same step then repeat one measurement, so
-/// that the drift of each is multiplied by the number of them.
+/// `systematic`: zero for a camera that is calibrated well, whose edges have independent errors.
+/// Otherwise the graph drifts as a path with systematic errors does. Such an error is common to all
+/// steps of a path, but edges are independent: so that the variances of the steps add up to f times
+/// the systematic error of a path of L metres with a turn of W radians, SystematicCovariance(f L, f
+/// W), an edge of l metres and w radians gets SystematicCovariance(sqrt(f^2 L l), sqrt(f^2 W w)).
+/// Edges that bridge the same step then repeat one measurement, so that the drift of each is
+/// multiplied by the number of them.
 PoseGraph MakeKeyframeGraph(const Map& map, const std::vector<PoseGraphEdge>& loops,
-                            double systematic_length);
+                            const SystematicDrift& systematic);
 
 }  // namespace msc_vo

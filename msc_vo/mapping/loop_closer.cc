@@ -8,7 +8,6 @@
 
 #include "msc_vo/factors/chi_square.h"
 #include "msc_vo/map/map_alignment.h"
-#include "msc_vo/mapping/keyframe_graph.h"
 #include "msc_vo/mapping/map_correction.h"
 
 namespace msc_vo {
@@ -66,9 +65,9 @@ PoseGraphEdge LoopCloser::EdgeOf(const Map& map, const KeyframeRevisit& visit) c
 double LoopCloser::SquaredError(const Map& map, const PoseGraphEdge& edge, const PathDrift& path,
                                 double factor) const {
   const Rigid3 by_path = map.CamFromWorld(edge.to) * map.CamFromWorld(edge.from).Inverse();
-  return SquaredDriftError(by_path, edge.to_from_from,
-                           path.StepsAt(Rigid3()) + SystematicCovariance(factor * path.length()) +
-                               CameraCovariance(edge.to_from_from, edge.covariance));
+  return SquaredDriftError(
+      by_path, edge.to_from_from,
+      path.At(Rigid3(), factor) + CameraCovariance(edge.to_from_from, edge.covariance));
 }
 
 double LoopCloser::SystematicFactor(const Map& map, const PoseGraphEdge& edge,
@@ -81,8 +80,8 @@ double LoopCloser::SystematicFactor(const Map& map, const PoseGraphEdge& edge,
 
 std::optional<PoseGraph> LoopCloser::Correct(const Map& map,
                                              const std::vector<PoseGraphEdge>& new_edges,
-                                             double systematic_length) const {
-  PoseGraph graph = MakeKeyframeGraph(map, loop_edges_, systematic_length);
+                                             const SystematicDrift& systematic) const {
+  PoseGraph graph = MakeKeyframeGraph(map, loop_edges_, systematic);
   graph.edges.insert(graph.edges.end(), new_edges.begin(), new_edges.end());
   const std::vector<double> squared_errors = OptimizePoseGraph(&graph);
   const bool is_consistent =
@@ -106,18 +105,19 @@ std::optional<LoopClosure> LoopCloser::TryClose(Map* map) {
     return std::nullopt;
   };
   std::vector<PoseGraphEdge> new_edges;
-  double systematic_length = 0.0;
+  SystematicDrift systematic;
   for (const KeyframeRevisit& visit : visits) {
     const PoseGraphEdge edge = EdgeOf(*map, visit);
     const PathDrift path = PathCovariances(*map, loop_edges_, edge.to).DriftTo(edge.from);
     if (SquaredError(*map, edge, path, 1.0) >= kOutlierChiSquare[6]) return refuse();
     new_edges.push_back(edge);
     const double factor = SystematicFactor(*map, edge, path);
-    systematic_length = std::max(systematic_length, factor * factor * path.length());
+    systematic.length = std::max(systematic.length, factor * factor * path.length());
+    systematic.turn = std::max(systematic.turn, factor * factor * path.turn().norm());
   }
-  std::optional<PoseGraph> graph = Correct(*map, new_edges, 0.0);
+  std::optional<PoseGraph> graph = Correct(*map, new_edges, {});
   const bool is_first = !std::exchange(is_contradicted_, !graph);
-  if (!graph && !is_first) graph = Correct(*map, new_edges, systematic_length);
+  if (!graph && !is_first) graph = Correct(*map, new_edges, systematic);
   if (!graph) return refuse();
   is_contradicted_ = false;
   const KeyframeId newest = visits.back().keyframe;

@@ -9,6 +9,7 @@
 #include "msc_vo/geometry/rigid3.h"
 #include "msc_vo/map/map.h"
 #include "msc_vo/map/path_covariance.h"
+#include "msc_vo/mapping/keyframe_graph.h"
 #include "msc_vo/mapping/keyframe_revisit.h"
 #include "msc_vo/pose_estimation/pose_graph.h"
 
@@ -80,9 +81,9 @@ class LoopCloser {
   double SquaredError(const Map& map, const PoseGraphEdge& edge, const PathDrift& path,
                       double factor) const;
   // The pose graph of the map with further edges, solved; std::nullopt if an edge contradicts.
-  // `systematic_length`: see MakeKeyframeGraph().
+  // `systematic`: see MakeKeyframeGraph().
   std::optional<PoseGraph> Correct(const Map& map, const std::vector<PoseGraphEdge>& new_edges,
-                                   double systematic_length) const;
+                                   const SystematicDrift& systematic) const;
   // The smallest of 1/8, 1/4, 1/2 and 1 by which the systematic error of the model is to be
   // multiplied so that the error of the path is no larger than expected; 1 if none suffices.
   double SystematicFactor(const Map& map, const PoseGraphEdge& edge, const PathDrift& path) const;

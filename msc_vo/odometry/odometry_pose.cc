@@ -49,17 +49,17 @@ void OdometryPose::AddMotion(const TrackedFrame& tracked) {
 
 void OdometryPose::AddCovariance(const TrackedFrame& tracked) {
   const Rigid3 odometry_from_cam = cam_from_odometry_.Inverse();
-  const double length =
-      (odometry_from_cam.translation() - odometry_from_keyframe_.translation()).norm();
   PoseCovariance own = PoseCovariance::Zero();
+  if (tracked.pose.usable) own = CameraCovariance(tracked.cam_from_world, tracked.pose.covariance);
+  PathDrift drift = drift_;
+  drift.AddStep(odometry_from_keyframe_, odometry_from_cam, PoseCovariance::Zero());
   covariance_.reset();
   if (tracked.pose.usable) {
-    own = CameraCovariance(tracked.cam_from_world, tracked.pose.covariance);
-    covariance_ =
-        CovarianceOfCamera(cam_from_odometry_, drift_.At(cam_from_odometry_, length) + own);
+    covariance_ = CovarianceOfCamera(cam_from_odometry_, drift.At(cam_from_odometry_) + own);
   }
   if (!tracked.keyframe.is_due()) return;
-  drift_.AddStep(odometry_from_cam, own, length);
+  drift_.AddStep(odometry_from_keyframe_, odometry_from_cam,
+                 TransportCovariance(odometry_from_cam, own));
   odometry_from_keyframe_ = odometry_from_cam;
 }
 

@@ -22,6 +22,10 @@ namespace {
 // In 1/30 s, and at least one per frame: bounds the cost.
 constexpr int kKeyframesToTry = 1;
 
+// Shortest time between two frames that are found in another part of their own map, seconds: the
+// camera then has a view of its own. Nothing waits for a loop.
+constexpr double kLoopInterval = 0.2;
+
 size_t NumKeyframes(const InactiveMaps& maps) {
   size_t count = 0;
   for (const std::shared_ptr<const Map>& map : maps) count += map->keyframes().size();
@@ -137,9 +141,12 @@ std::optional<Revisit> PlaceSearch::FindRevisit(const TrackedFrame& tracked, boo
                                                 const MapSnapshot& snapshot, double seconds) {
   if (tracked.status != TrackingStatus::kTracked) return std::nullopt;
   const double timestamp = tracked.frame->timestamp;
-  if (timestamp - last_success_ < options_.segments.search_interval) return std::nullopt;
+  const double pause = timestamp - last_success_;
+  if (pause < options_.segments.search_interval) return std::nullopt;
   std::optional<Revisit> found = FindInInactiveMaps(tracked, snapshot, seconds);
-  if (!found && is_keyframe && options_.find_loops) found = FindLoop(tracked, snapshot);
+  if (!found && is_keyframe && options_.find_loops && pause >= kLoopInterval) {
+    found = FindLoop(tracked, snapshot);
+  }
   if (found) last_success_ = timestamp;
   return found;
 }

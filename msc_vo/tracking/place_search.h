@@ -53,9 +53,8 @@ class PlaceSearch {
   /// Searches the inactive maps for the place that a frame of status kTracked shows, so that the
   /// maps can be joined, and its own map, if it `is_keyframe`, for parts that it shares no
   /// landmarks with, so that a loop can be closed. Inactive maps are searched in one of their
-  /// keyframes in 1/30 s, `seconds` after the frame before (KeyframesToTry). After a success it
-  /// pauses for SegmentOptions::search_interval, so that the next frame that is found has a
-  /// different view.
+  /// keyframes in 1/30 s, `seconds` after the frame before (KeyframesToTry). After a success, that
+  /// search pauses for SegmentOptions::search_interval, and that for loops for 0.2 s.
   std::optional<Revisit> FindRevisit(const TrackedFrame& tracked, bool is_keyframe,
                                      const MapSnapshot& snapshot, double seconds);
 

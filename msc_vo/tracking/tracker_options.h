@@ -22,9 +22,9 @@ struct SegmentOptions {
   /// tries as the map has keyframes, but not longer than the maximum.
   double min_search = 1.0;
   double max_search = 5.0;
-  /// Shortest time between two frames that are found in an inactive map, seconds: a hand-held
-  /// camera then has a view of its own.
-  double search_interval = 0.2;
+  /// Shortest time between two frames that are found in an inactive map, seconds: every image of a
+  /// camera at 15 Hz, every second one at 30 Hz.
+  double search_interval = 0.06;
 
   bool IsValid(std::string* error) const;
 };

@@ -3,6 +3,7 @@
 
 #include "msc_vo/map/path_covariance.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -91,6 +92,65 @@ TEST_F(PathCovarianceTest, BoundsTheDrift) {
   EXPECT_TRUE(is_possible(shift(6.0 * sigma), 9.0 * Along(0, 10) * PoseCovariance::Identity()));
 }
 
+// A camera that turns on the spot about its y axis, by 15 degrees per keyframe.
+constexpr double kTurnStep = M_PI / 12.0;
+constexpr double kTurnRatio = 0.005;  // standard deviation of an angle relative to the angle
+
+Rigid3 Turned(double steps) { return {ExpSO3({0.0, -kTurnStep * steps, 0.0}), {0.0, 0.0, 0.0}}; }
+
+class TurnTest : public testing::Test {
+ protected:
+  void AddKeyframe(const Rigid3& cam_from_world) {
+    map_.SetStepCovariance(map_.AddKeyframe(std::make_shared<Frame>(), cam_from_world),
+                           PoseCovariance::Zero());
+  }
+  // Standard deviations of the last keyframe relative to the first one, in its frame.
+  Eigen::Matrix<double, 6, 1> Sigma() const {
+    return PathCovariance(map_, 0, map_.KnownKeyframes().back()).diagonal().cwiseSqrt();
+  }
+
+  Map map_;
+};
+
+TEST_F(TurnTest, ErrsByARatioOfTheAngle) {
+  for (int i = 0; i <= 48; ++i) {
+    AddKeyframe(Turned(i));
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_NEAR(Sigma()[axis], kTurnRatio * kTurnStep * i, 1e-9) << i;  // whole turns count
+    }
+  }
+}
+
+TEST_F(TurnTest, ErrsByNothingOnceItIsUndone) {
+  for (int i = 0; i <= 12; ++i) AddKeyframe(Turned(i));
+  EXPECT_NEAR(Sigma()[1], kTurnRatio * M_PI, 1e-9);
+  for (int i = 11; i >= 0; --i) AddKeyframe(Turned(i));
+  EXPECT_LT(Sigma().norm(), 1e-9);
+}
+
+// The camera errs sideways by the distance that it goes after the turn.
+TEST_F(TurnTest, HasALever) {
+  for (int i = 0; i <= 24; ++i) AddKeyframe(Turned(i));
+  for (int i = 1; i <= 10; ++i) {
+    AddKeyframe({Eigen::Quaterniond::Identity(), {0.0, 0.0, -1.0 * i}});
+  }
+  const double by_length = 0.005 * 10.0, by_turn = kTurnRatio * 2.0 * M_PI * 10.0;
+  EXPECT_NEAR(Sigma()[3], std::hypot(by_length, by_turn), 1e-6);
+  EXPECT_NEAR(Sigma()[5], by_length, 1e-6);  // along the path
+}
+
+// A motion across the view and a turn look alike: the position errs while the camera looks
+// elsewhere, by a ratio of the distance of the surfaces.
+TEST_F(TurnTest, MovesTheCameraWhileItLooksElsewhere) {
+  double largest = 0.0;
+  for (int i = 0; i <= 24; ++i) {
+    AddKeyframe(Turned(i));
+    largest = std::max(largest, Sigma()[3]);
+    EXPECT_NEAR(Sigma()[3], kTurnRatio * 2.5 * 2.0 * std::sin(kTurnStep * i / 2.0), 1e-9) << i;
+  }
+  EXPECT_NEAR(largest, 0.025, 1e-6);
+}
+
 // Keyframes on a circle, looking outwards, about 1 m from each other: the last one is beside the
 // first one.
 class LoopCovarianceTest : public testing::Test {
@@ -155,11 +215,13 @@ TEST_F(LoopCovarianceTest, IsThatOfThePathWithoutLoops) {
 
 TEST_F(LoopCovarianceTest, GoesOnToACameraNearAKeyframe) {
   const PathCovariances covariances(map_, {}, 0);
-  const Rigid3 cam_from_keyframe(ExpSO3({0.0, 0.5, 0.0}), {0.6, 0.0, 0.8});  // 1 m
+  const Rigid3 cam_from_keyframe(ExpSO3({0.0, -0.5, 0.0}), {0.6, 0.0, 0.8});  // 1 m
   const PoseCovariance camera = covariances.Of(2, cam_from_keyframe);
   // The rotation, 10 mrad twice with four times the variance, has a lever of 1 m across it.
   const double length = 2.0 * 8.0 * std::sin(M_PI / kNumKeyframes) + 1.0;
-  const double systematic = std::pow(0.05 * M_PI / 180.0 * length, 2);
+  const double turn = 2.0 * kTurnStep + 0.5;
+  const double systematic =
+      std::pow(0.05 * M_PI / 180.0 * length, 2) + std::pow(kTurnRatio * turn, 2);
   EXPECT_NEAR(camera(1, 1), 8.0 * std::pow(0.01, 2) + systematic, 1e-9);
   EXPECT_TRUE(IsSmaller(TransportCovariance(cam_from_keyframe, covariances.Of(2)),
                         camera + 1e-12 * PoseCovariance::Identity()));
@@ -190,10 +252,14 @@ TEST_F(LoopCovarianceTest, IsNotSmallerThanTheMarginalOfTheGraph) {
   for (int id = 1; id < kNumKeyframes; ++id) {
     EXPECT_TRUE(IsSmaller(Marginal(loops, id), covariances.Of(id))) << id;
   }
-  // Without loops, the marginal is the path without its systematic part, 5 mm per metre.
+  // Without loops, the marginal is the path without its systematic part: 5 mm per metre, and 0.05
+  // degrees per metre beside a ratio of the angle.
   const PoseCovariance systematic = PathCovariances(map_, {}, 0).Of(2) - Marginal({}, 2);
-  EXPECT_NEAR(std::sqrt(systematic(3, 3)), 0.005 * 2.0 * 8.0 * std::sin(M_PI / kNumKeyframes),
-              1e-6);
+  const double length = 2.0 * 8.0 * std::sin(M_PI / kNumKeyframes);
+  EXPECT_NEAR(std::sqrt(systematic(1, 1)),
+              std::hypot(0.05 * M_PI / 180.0 * length, kTurnRatio * 2.0 * kTurnStep), 1e-6);
+  EXPECT_GT(std::sqrt(systematic(3, 3)), 0.005 * length);
+  EXPECT_LT(std::sqrt(systematic(3, 3)), 1.5 * 0.005 * length);
 }
 
 TEST_F(LoopCovarianceTest, IgnoresLoopsOfOtherMaps) {

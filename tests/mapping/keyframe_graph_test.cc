@@ -5,30 +5,34 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
+#include "msc_vo/geometry/so3.h"
 #include "msc_vo/map/path_covariance.h"
 
 namespace msc_vo {
 namespace {
 
 constexpr int kNumKeyframes = 60;
-constexpr double kStep = 0.2;                            // metres
-constexpr double kLength = (kNumKeyframes - 1) * kStep;  // metres
-constexpr int kNumPoints = 25;                           // landmarks that begin per keyframe
-constexpr Eigen::Index kAlong = 3;                       // row of the translation along x
+constexpr double kStep = 0.2;                              // metres
+constexpr double kLength = (kNumKeyframes - 1) * kStep;    // metres
+constexpr double kTurnStep = 0.1;                          // radians
+constexpr double kTurn = (kNumKeyframes - 1) * kTurnStep;  // radians
+constexpr int kNumPoints = 25;                             // landmarks that begin per keyframe
+constexpr Eigen::Index kAlong = 3;                         // row of the translation along x
+constexpr Eigen::Index kAboutY = 1;                        // row of the rotation about y
 
-// A straight path along x. The landmarks that begin at a keyframe are observed by `num_observers`
-// in a row.
-Map StraightPath(int num_observers) {
+// A path. The landmarks that begin at a keyframe are observed by `num_observers` in a row.
+Map PathWith(const std::function<Rigid3(int)>& cam_from_world, int num_observers) {
   Map map;
   for (int i = 0; i < kNumKeyframes; ++i) {
     auto frame = std::make_shared<Frame>();
     frame->points.resize(static_cast<size_t>(kNumPoints * num_observers));
-    map.AddKeyframe(frame, Rigid3(Eigen::Quaterniond::Identity(), {-kStep * i, 0.0, 0.0}));
+    map.AddKeyframe(frame, cam_from_world(i));
     map.SetStepCovariance(i, IsotropicCovariance(1e-5, 1e-5));
   }
   for (int i = 0; i < kNumKeyframes; ++i) {
@@ -42,13 +46,29 @@ Map StraightPath(int num_observers) {
   return map;
 }
 
-// Standard deviation of the position of the last keyframe along the path, relative to the first
-// one: the edges are independent and the motion has no turn, so that this direction is a network of
+// A straight path along x.
+Map StraightPath(int num_observers) {
+  const auto cam_from_world = [](int i) {
+    return Rigid3(Eigen::Quaterniond::Identity(), {-kStep * i, 0.0, 0.0});
+  };
+  return PathWith(cam_from_world, num_observers);
+}
+
+// A camera that turns on the spot about its y axis.
+Map TurnOnTheSpot(int num_observers) {
+  const auto cam_from_world = [](int i) {
+    return Rigid3(ExpSO3({0.0, kTurnStep * i, 0.0}), Eigen::Vector3d::Zero());
+  };
+  return PathWith(cam_from_world, num_observers);
+}
+
+// Standard deviation of a row of the pose of the last keyframe relative to the first one: the edges
+// are independent and the row is not mixed with others along the path, so that it is a network of
 // resistors.
-double SigmaAlongPath(const PoseGraph& graph) {
+double SigmaOf(Eigen::Index row, const PoseGraph& graph) {
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(kNumKeyframes, kNumKeyframes);
   for (const PoseGraphEdge& edge : graph.edges) {
-    const double weight = 1.0 / edge.covariance(kAlong, kAlong);
+    const double weight = 1.0 / edge.covariance(row, row);
     information(edge.from, edge.from) += weight;
     information(edge.to, edge.to) += weight;
     information(edge.from, edge.to) -= weight;
@@ -68,25 +88,36 @@ class KeyframeGraphTest : public testing::TestWithParam<int> {
 
 TEST_P(KeyframeGraphTest, DriftsAsAPathWithSystematicErrorsDoes) {
   const Map map = StraightPath(GetParam());
-  const double expected = std::sqrt(SystematicCovariance(kLength)(kAlong, kAlong));
-  EXPECT_NEAR(SigmaAlongPath(MakeKeyframeGraph(map, {}, kLength)), expected, 0.1 * expected);
-  EXPECT_NEAR(SigmaAlongPath(MakeKeyframeGraph(map, {}, 0.25 * kLength)), 0.5 * expected,
+  const double expected = std::sqrt(SystematicCovariance(kLength, 0.0)(kAlong, kAlong));
+  EXPECT_NEAR(SigmaOf(kAlong, MakeKeyframeGraph(map, {}, {kLength, 0.0})), expected,
               0.1 * expected);
+  EXPECT_NEAR(SigmaOf(kAlong, MakeKeyframeGraph(map, {}, {0.25 * kLength, 0.0})), 0.5 * expected,
+              0.1 * expected);
+}
+
+TEST_P(KeyframeGraphTest, DriftsAsATurnWithSystematicErrorsDoes) {
+  const Map map = TurnOnTheSpot(GetParam());
+  const double expected = std::sqrt(SystematicCovariance(0.0, kTurn)(kAboutY, kAboutY));
+  EXPECT_NEAR(SigmaOf(kAboutY, MakeKeyframeGraph(map, {}, {0.0, kTurn})), expected, 0.1 * expected);
+  EXPECT_NEAR(SigmaOf(kAboutY, MakeKeyframeGraph(map, {}, {0.0, 0.25 * kTurn})), 0.5 * expected,
+              0.15 * expected);
 }
 
 // A step that edges of 1 to r steps bridge, each with the same variance v, has the variance
 // v / (1 + 4 + ... + r^2), but for those at the ends of the path.
 TEST_P(KeyframeGraphTest, HasIndependentErrorsOtherwise) {
-  const PoseGraph graph = MakeKeyframeGraph(StraightPath(GetParam()), {}, 0.0);
   double sum_of_squares = 0.0;
   for (int steps = 1; steps <= Reach(); ++steps) sum_of_squares += steps * steps;
   const double expected =
       std::sqrt((kNumKeyframes - 1) * CommonViewCovariance()(kAlong, kAlong) / sum_of_squares);
-  EXPECT_NEAR(SigmaAlongPath(graph), expected, 0.15 * expected);
+  const double along = SigmaOf(kAlong, MakeKeyframeGraph(StraightPath(GetParam()), {}, {}));
+  const double about_y = SigmaOf(kAboutY, MakeKeyframeGraph(TurnOnTheSpot(GetParam()), {}, {}));
+  EXPECT_NEAR(along, expected, 0.15 * expected);
+  EXPECT_NEAR(about_y, expected, 0.15 * expected);
 }
 
 TEST_P(KeyframeGraphTest, HasAnEdgePerStepAndPerPairThatSharesLandmarks) {
-  const PoseGraph graph = MakeKeyframeGraph(StraightPath(GetParam()), {}, kLength);
+  const PoseGraph graph = MakeKeyframeGraph(StraightPath(GetParam()), {}, {kLength, 0.0});
   EXPECT_EQ(graph.poses.size(), static_cast<size_t>(kNumKeyframes));
   size_t expected = 0;
   for (int i = 1; i < kNumKeyframes; ++i) expected += static_cast<size_t>(std::min(i, Reach()));
@@ -107,7 +138,7 @@ TEST(KeyframeGraphLoopTest, AttachesALoopToTheKeyframeBeforeACulledOne) {
   const PoseCovariance covariance = 1e-6 * PoseCovariance::Identity();
   const Rigid3 to_from_from = map.CamFromWorld(50) * map.CamFromWorld(10).Inverse();
   map.RemoveKeyframe(50, 49);
-  const PoseGraph graph = MakeKeyframeGraph(map, {{10, 50, to_from_from, covariance}}, 0.0);
+  const PoseGraph graph = MakeKeyframeGraph(map, {{10, 50, to_from_from, covariance}}, {});
   EXPECT_EQ(graph.edges.back().from, 10);
   EXPECT_EQ(graph.edges.back().to, 49);
   const Rigid3 expected = map.CamFromWorld(49) * map.CamFromWorld(10).Inverse();

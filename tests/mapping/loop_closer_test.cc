@@ -168,6 +168,36 @@ TEST_F(LoopCloserTest, CorrectsSystematicDriftOfKeyframesThatShareLandmarks) {
   EXPECT_LT(Error(18), before);
 }
 
+// A wrong focal length errs by a ratio of each angle: nearly two degrees in a whole turn, on a path
+// without length.
+TEST_F(LoopCloserTest, CorrectsTheTurnOfACameraThatStaysInPlace) {
+  const auto turned = [](double i) {
+    const double angle = 2.0 * M_PI * i / kNumInRound;
+    return Rigid3(ExpSO3({0.0, angle, 0.0}), Eigen::Vector3d(0.01 * std::sin(angle), 0.0, 0.0));
+  };
+  Map map;
+  for (int i = 0; i < kNumKeyframes; ++i) {
+    map.AddKeyframe(map_.FindKeyframe(0)->frame, turned(1.005 * i));
+    map.SetStepCovariance(i, IsotropicCovariance(1e-4, 1e-4));
+  }
+  const auto revisit = [&](int i) {
+    const int reference = i - kNumInRound;
+    closer_.AddRevisit(
+        {i, kCovariance, {reference, turned(i) * turned(reference).Inverse(), kCovariance, {}}});
+    return closer_.TryClose(&map).has_value();
+  };
+  const auto error = [&](int i) {
+    return LogSO3((map.CamFromWorld(i) * turned(i).Inverse()).rotation()).norm();
+  };
+  EXPECT_GT(error(38), 0.03);
+  EXPECT_FALSE(revisit(36));
+  EXPECT_FALSE(revisit(37));
+  ASSERT_TRUE(revisit(38));
+  EXPECT_EQ(closer_.num_refused(), 0);
+  EXPECT_LT(error(38), 0.005);
+  EXPECT_LT(error(18), 0.005);  // the error is spread over the turn
+}
+
 TEST_F(LoopCloserTest, RefusesWhatDriftCannotExplain) {
   const Map before = map_.Share();
   for (const int i : {36, 37, 38}) {

@@ -25,7 +25,6 @@ class SessionsTest : public RoomTest {
   static OdometryOptions Options() {
     OdometryOptions options;
     options.threads = 1;
-    options.tracking.segments.search_interval = 0.1;
     return options;
   }
 
@@ -120,6 +119,22 @@ TEST_F(SessionsTest, FindsItselfInTheMapWhateverTheClockSays) {
       EXPECT_GE(keyframe.timestamp, time);
       EXPECT_LE(keyframe.timestamp, time + 2.0);
     }
+  }
+}
+
+TEST_F(SessionsTest, FindsItselfWithinThreeTenthsOfASecond) {
+  for (const int stride : {1, 2}) {  // 30 and 15 Hz
+    Odometry odometry(Options(), camera_, LensDistortion());
+    odometry.SetMap(Map());
+    std::optional<double> found;  // seconds after the first image
+    for (int i = kFirst; i < kNumFrames && !found; i += stride) {
+      RgbdImage image = (*images_)[i];
+      image.id = (i - kFirst) / stride;
+      image.timestamp = 100.0 + (i - kFirst) / 30.0;
+      if (odometry.Process(image).world == 0) found = image.timestamp - 100.0;
+    }
+    ASSERT_TRUE(found) << stride;
+    EXPECT_LT(*found, 0.3) << stride;
   }
 }
 
