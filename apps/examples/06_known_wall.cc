@@ -103,7 +103,8 @@ double ErrorAcross(const Plane& plane, const msc_vo::SimulatedCamera& camera,
 
 int main() {
   const msc_vo::SimulatedCamera camera(msc_vo::SceneKind::kCorridor, 240);
-  const msc_vo::OdometryOptions options;
+  msc_vo::OdometryOptions options;
+  options.mode = msc_vo::Mode::kPlVo;  // without Manhattan axes, which hold directions too
   msc_vo::Odometry vision(options, camera.camera(), {}), both(options, camera.camera(), {});
   const Plane wall = WallOf(camera);
   both.SetWindowFactors(KnownWall(wall));
