@@ -138,6 +138,7 @@ void AddMap(const std::string& folder, int world, McapRun* run) {
   if (std::filesystem::exists(planes)) run->planes = ReadColoredPolygonsPly(planes);
 }
 
+// The covariance of a pose in the frame of its camera.
 std::optional<PoseCovariance> InCameraFrame(const Rigid3& world_from_cam,
                                             const std::optional<PoseCovariance>& covariance) {
   if (!covariance) return std::nullopt;

@@ -31,7 +31,7 @@ double TiltError(const msc_vo::SimulatedCamera& camera, const msc_vo::OdometryRe
 int main() {
   const msc_vo::SimulatedCamera camera(msc_vo::SceneKind::kRoom, 300);
   msc_vo::OdometryOptions options;
-  options.features.points.num_points = 100;  // as before plain walls
+  options.features.points.num_points = 100;  // few, as on plain walls
   options.mode = msc_vo::Mode::kPlVo;  // without Manhattan axes, which hold roll and pitch too
   msc_vo::Odometry vision(options, camera.camera(), {}), both(options, camera.camera(), {});
   msc_vo::GravityFactors gravity(camera.AccelerometerReadings(), msc_vo::GravityOptions());

@@ -104,7 +104,7 @@ double ErrorAcross(const Plane& plane, const msc_vo::SimulatedCamera& camera,
 int main() {
   const msc_vo::SimulatedCamera camera(msc_vo::SceneKind::kCorridor, 240);
   msc_vo::OdometryOptions options;
-  options.mode = msc_vo::Mode::kPlVo;  // without Manhattan axes, which hold directions too
+  options.mode = msc_vo::Mode::kPlVo;  // without Manhattan axes, which hold the direction too
   msc_vo::Odometry vision(options, camera.camera(), {}), both(options, camera.camera(), {});
   const Plane wall = WallOf(camera);
   both.SetWindowFactors(KnownWall(wall));

@@ -4,12 +4,14 @@
 #include "apps/python/map.h"
 
 #include <memory>
+#include <type_traits>
 
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
 #include "apps/python/arrays.h"
 #include "apps/python/bindings.h"
+#include "msc_vo/map/window_selection.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
@@ -18,26 +20,16 @@ namespace py = pybind11;
 
 namespace {
 
-void AddObservations(const Map& map, const PointLandmark& point, WindowData* window) {
-  for (const Observation& observation : point.observations) {
-    const Keyframe& keyframe = *map.FindKeyframe(observation.keyframe);
-    const PointFeature& feature = keyframe.frame->points[observation.feature];
-    WindowData::PointObservation in_window{keyframe.id, point.id, feature.pixel, feature.sigma};
-    if (!point.has_false_depth) {
-      in_window.inverse_depth = feature.inverse_depth;
-      in_window.inverse_depth_sigma = feature.inverse_depth_sigma;
+template <typename L>
+void AddObservations(const Map& map, const L& landmark, WindowData* window) {
+  for (const Observation& observation : landmark.observations) {
+    const auto in_window =
+        MakeObservation(*map.FindKeyframe(observation.keyframe), landmark, observation.feature);
+    if constexpr (std::is_same_v<L, PointLandmark>) {
+      window->point_observations.push_back(in_window);
+    } else {
+      window->line_observations.push_back(in_window);
     }
-    window->point_observations.push_back(in_window);
-  }
-}
-
-void AddObservations(const Map& map, const LineLandmark& line, WindowData* window) {
-  for (const Observation& observation : line.observations) {
-    const Keyframe& keyframe = *map.FindKeyframe(observation.keyframe);
-    const LineFeature& feature = keyframe.frame->lines[observation.feature];
-    window->line_observations.push_back({keyframe.id, line.id, feature.segment, feature.sigma,
-                                         feature.depth.has_value() && !line.has_false_depth,
-                                         feature.depth.value_or(LineDepth()), false});
   }
 }
 

@@ -72,11 +72,9 @@ struct PointLandmark : Landmark {
            std::abs(1.0 / depth - measured.inverse_depth) < 2.576 * measured.inverse_depth_sigma;
   }
   /// Whether two landmarks that a feature of a camera at `center` (world) was matched with are one.
-  static bool AreDuplicates(const Eigen::Vector3d& center, const PointLandmark& a,
-                            const PointLandmark& b) {
-    if (!a.has_false_depth && !b.has_false_depth) return true;  // both are at the feature's depth
-    constexpr double kMaxOffset = 0.02;  // relative to the distance from the camera
-    return (a.position - b.position).norm() < kMaxOffset * (a.position - center).norm();
+  static bool AreDuplicates(const Eigen::Vector3d& /*center*/, const PointLandmark& /*a*/,
+                            const PointLandmark& /*b*/) {
+    return true;  // both project to the feature, at its depth unless that is false
   }
   /// Whether an observation is as fine as a feature: its level is at most one coarser.
   static bool IsAsFine(const Feature& other, const Feature& feature) {

@@ -92,33 +92,6 @@ void AddKeyframes(const Map& map, const std::set<KeyframeId>& window,
   }
 }
 
-WindowData::PointObservation MakeObservation(const Keyframe& keyframe, const PointLandmark& point,
-                                             int feature_index) {
-  const PointFeature& feature = keyframe.frame->points[feature_index];
-  WindowData::PointObservation observation;
-  observation.keyframe = keyframe.id;
-  observation.point = point.id;
-  observation.pixel = feature.pixel;
-  observation.sigma = feature.sigma;
-  if (point.has_false_depth) return observation;
-  observation.inverse_depth = feature.inverse_depth;
-  observation.inverse_depth_sigma = feature.inverse_depth_sigma;
-  return observation;
-}
-
-WindowData::LineObservation MakeObservation(const Keyframe& keyframe, const LineLandmark& line,
-                                            int feature_index) {
-  const LineFeature& feature = keyframe.frame->lines[feature_index];
-  WindowData::LineObservation observation;
-  observation.keyframe = keyframe.id;
-  observation.line = line.id;
-  observation.segment = feature.segment;
-  observation.sigma = feature.sigma;
-  observation.has_depth = feature.depth.has_value() && !line.has_false_depth;
-  if (observation.has_depth) observation.depth = *feature.depth;
-  return observation;
-}
-
 // Adds the observations of the landmark by the given keyframes.
 template <typename L, typename O>
 void AddObservations(const KeyframeIndex& keyframes, const L& landmark,
@@ -203,6 +176,33 @@ bool WindowSelectionOptions::IsValid(std::string* error) const {
     return true;
   }
   return false;
+}
+
+WindowData::PointObservation MakeObservation(const Keyframe& keyframe, const PointLandmark& point,
+                                             int feature_index) {
+  const PointFeature& feature = keyframe.frame->points[feature_index];
+  WindowData::PointObservation observation;
+  observation.keyframe = keyframe.id;
+  observation.point = point.id;
+  observation.pixel = feature.pixel;
+  observation.sigma = feature.sigma;
+  if (point.has_false_depth) return observation;
+  observation.inverse_depth = feature.inverse_depth;
+  observation.inverse_depth_sigma = feature.inverse_depth_sigma;
+  return observation;
+}
+
+WindowData::LineObservation MakeObservation(const Keyframe& keyframe, const LineLandmark& line,
+                                            int feature_index) {
+  const LineFeature& feature = keyframe.frame->lines[feature_index];
+  WindowData::LineObservation observation;
+  observation.keyframe = keyframe.id;
+  observation.line = line.id;
+  observation.segment = feature.segment;
+  observation.sigma = feature.sigma;
+  observation.has_depth = feature.depth.has_value() && !line.has_false_depth;
+  if (observation.has_depth) observation.depth = *feature.depth;
+  return observation;
 }
 
 WindowData SelectWindow(const WindowSelectionOptions& options, const Map& map, KeyframeId keyframe,

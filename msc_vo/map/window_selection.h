@@ -44,6 +44,13 @@ WindowData SelectWholeMap(const WindowSelectionOptions& options, const Map& map)
 /// left out.
 WindowData SelectSession(const WindowSelectionOptions& options, const Map& map);
 
+/// The observation of a landmark by feature `feature` of a keyframe, as a record of a window:
+/// without a depth if that is false (Landmark::has_false_depth).
+WindowData::PointObservation MakeObservation(const Keyframe& keyframe, const PointLandmark& point,
+                                             int feature);
+WindowData::LineObservation MakeObservation(const Keyframe& keyframe, const LineLandmark& line,
+                                            int feature);
+
 /// Writes the optimised window back into the map. Landmarks that one keyframe alone observes, which
 /// the window need not have, move with it. Removes rejected observations and lines shorter than 1
 /// cm. End points of lines are recomputed from the observations, because bundle adjustment leaves

@@ -10,8 +10,8 @@
 
 namespace msc_vo {
 
-/// The ratio by which the depth that the parallax of a landmark gives exceeds the measured one, and
-/// its variance. 0: both agree.
+/// The ratio by which the depth of a landmark by parallax exceeds the measured one: 0 if they are
+/// equal, 0.05 if it is 5 % farther away.
 struct DepthExcess {
   double value = 0.0;
   double variance = 0.0;

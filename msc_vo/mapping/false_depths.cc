@@ -20,13 +20,14 @@ namespace {
 
 // Cells of the image. Chosen by measurement, see docs/lab/depth.md.
 constexpr int kColumns = 6, kRows = 4;
-// Points that a cell needs, and cells that an image needs.
+// Points of a cell, so that one wrong match does not decide, and cells of an image: a quarter.
 constexpr size_t kMinPoints = 3, kMinCells = 6;
-// Ratio of false depths, and their largest excess.
+// Prior probability of a false depth, and the largest excess. Larger excesses than 0.5 were
+// measured and add false alarms, see docs/lab/depth.md; the prior counts by its logarithm only.
 constexpr double kPrior = 0.02, kMaxExcess = 0.5;
-// Largest standard deviation of an excess that is used.
+// Largest standard deviation of an excess that is used: beyond, the parallax is that of noise.
 constexpr double kMaxSigma = 0.1;
-// Least standard deviation of the excess of a surface: its depth and the poses err as well.
+// Least standard deviation of the excess of a surface: a centimetre at 3 m, as depth and poses err.
 constexpr double kMinSpread = 0.003;
 
 template <typename L>
@@ -85,11 +86,11 @@ void AddLandmarks(const WindowData& window, const Keyframe& keyframe, const Nois
   }
 }
 
-// The excess of measurements that are not false.
+// Normal distribution of the excess of true depths.
 class TrueDepths {
  public:
-  // The shortest interval that contains more than half of the cells, since false depths lie to one
-  // side.
+  // Estimated by the shortest interval that contains more than half of the cells, since false
+  // depths lie to one side.
   explicit TrueDepths(const std::vector<DepthExcess>& cells) {
     constexpr double kSigmaPerHalfWidth = 1.4826;  // of a normal distribution
     std::vector<double> values, variances;
@@ -104,14 +105,15 @@ class TrueDepths {
     for (size_t i = 0; i + half < values.size(); ++i) {
       if (values[i + half] - values[i] < values[best + half] - values[best]) best = i;
     }
-    common_ = 0.5 * (values[best] + values[best + half]);
+    mean_ = 0.5 * (values[best] + values[best + half]);
     const double sigma = kSigmaPerHalfWidth * 0.5 * (values[best + half] - values[best]);
     variance_ = std::max(sigma * sigma - variances[half], kMinSpread * kMinSpread);
   }
 
-  // Whether an excess that may have any value up to the largest is likelier than one of these.
+  // Whether the excess is likelier under a uniform density up to kMaxExcess than under that of true
+  // depths.
   bool Exclude(const DepthExcess& excess) const {
-    const double difference = excess.value - common_;
+    const double difference = excess.value - mean_;
     const double variance = variance_ + excess.variance;
     if (difference <= 0.0) return false;
     const double log_true =
@@ -120,8 +122,8 @@ class TrueDepths {
   }
 
  private:
-  double common_ = 0.0;    // of all: a wrong length of the motion
-  double variance_ = 0.0;  // of surfaces
+  double mean_ = 0.0;      // the error of the scale of the translation
+  double variance_ = 0.0;  // between surfaces
 };
 
 }  // namespace
@@ -133,18 +135,19 @@ void FindFalseDepths(const WindowData& window, KeyframeId newest, const NoiseSca
     AddLandmarks<typename decltype(kind)::Landmark>(window, *map->FindKeyframe(newest), scale, *map,
                                                     &cells);
   });
-  std::vector<DepthExcess> summaries;
+  std::vector<std::optional<DepthExcess>> summaries;
+  std::vector<DepthExcess> known;
   for (const Cell& cell : cells) {
-    if (const auto summary = cell.Summary()) summaries.push_back(*summary);
+    summaries.push_back(cell.Summary());
+    if (summaries.back()) known.push_back(*summaries.back());
   }
-  if (summaries.size() < kMinCells) return;
-  const TrueDepths true_depths(summaries);
-  for (const Cell& cell : cells) {
-    const std::optional<DepthExcess> summary = cell.Summary();
-    const bool is_false = summary && true_depths.Exclude(*summary);
+  if (known.size() < kMinCells) return;
+  const TrueDepths true_depths(known);
+  for (size_t i = 0; i < cells.size(); ++i) {
+    const bool is_false = summaries[i] && true_depths.Exclude(*summaries[i]);
     ForEachLandmarkKind([&](auto kind) {
       using L = typename decltype(kind)::Landmark;
-      for (const auto& [id, excess] : OfKind<L>(cell)) {
+      for (const auto& [id, excess] : OfKind<L>(cells[i])) {
         map->SetHasFalseDepth<L>(id, is_false || true_depths.Exclude(excess));
       }
     });

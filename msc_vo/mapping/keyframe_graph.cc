@@ -28,11 +28,12 @@ Rigid3 RelativePose(const Map& map, KeyframeId a, KeyframeId b) {
 struct Link {
   size_t a = 0, b = 0;  // positions of the keyframes in the map, a < b
   Rigid3 b_from_a;
-  double extent = 0.0;
+  double extent = 0.0;   // ExtentOf() its path
   PoseCovariance drift;  // of the camera of b
 };
 
-// How much a camera moves on a path: a radian counts as a metre.
+// How much a camera moves on a path. A radian counts as a metre, since the systematic errors of
+// both are 0.005.
 double ExtentOf(const PathDrift& path) { return path.length() + path.turn().norm(); }
 
 // The links of a map. Most steps are bridged by several: by their own and by those of pairs of

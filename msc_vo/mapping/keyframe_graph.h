@@ -15,9 +15,10 @@ namespace msc_vo {
 /// poses in a window, in the camera frame.
 PoseCovariance CommonViewCovariance();
 
-/// The systematic errors that explain a loop of L metres on which the camera turns by W radians.
+/// The systematic errors that explain a loop: a factor f times those of the model for a path of L
+/// metres on which the camera turns by W radians, SystematicCovariance(L, W).
 struct SystematicDrift {
-  double length = 0.0;  ///< f^2 L, metres; f: relative to SystematicCovariance(L, W)
+  double length = 0.0;  ///< f^2 L, metres
   double turn = 0.0;    ///< f^2 W, radians
 };
 
@@ -27,11 +28,10 @@ struct SystematicDrift {
 ///
 /// `systematic`: zero for a camera that is calibrated well, whose edges have independent errors.
 /// Otherwise the graph drifts as a path with systematic errors does. Such an error is common to all
-/// steps of a path, but edges are independent: so that the variances of the steps add up to f times
-/// the systematic error of a path of L metres with a turn of W radians, SystematicCovariance(f L, f
-/// W), an edge of l metres and w radians gets SystematicCovariance(sqrt(f^2 L l), sqrt(f^2 W w)).
-/// Edges that bridge the same step then repeat one measurement, so that the drift of each is
-/// multiplied by the number of them.
+/// steps of a path, but edges are independent: an edge of l metres and w radians gets
+/// SystematicCovariance(f sqrt(L l), f sqrt(W w)), so that the variances of the steps add up to
+/// those of the whole path. Edges that bridge the same step then repeat one measurement, so that
+/// the drift of each is multiplied by the number of them.
 PoseGraph MakeKeyframeGraph(const Map& map, const std::vector<PoseGraphEdge>& loops,
                             const SystematicDrift& systematic);
 

@@ -13,7 +13,7 @@ namespace msc_vo {
 namespace {
 
 // Moves the landmarks of a kind to the positions that the first of their observations with a depth
-// measures. Whether that is false is to be found again: a wrong calibration bends surfaces as well.
+// measures, and clears Landmark::has_false_depth, which was found with the calibration so far.
 template <typename L>
 void MoveLandmarks(Map* map) {
   std::vector<std::pair<LandmarkId, typename L::Geometry>> moved;

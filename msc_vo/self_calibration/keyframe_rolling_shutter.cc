@@ -27,7 +27,6 @@ void MoveExclusiveLandmarks(const Keyframe& keyframe, Map* map) {
     const int feature = static_cast<int>(i);
     const L* landmark = map->Find<L>(slots[i]);
     if (landmark == nullptr || landmark->observations.size() > 1) continue;
-    if (landmark->has_false_depth) continue;
     if (!FeaturesOf<L>(*keyframe.frame)[i].HasDepth()) continue;
     map->SetGeometry<L>(landmark->id, world_from_cam * L::InCamera(*keyframe.frame, feature));
   }

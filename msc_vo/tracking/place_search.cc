@@ -22,8 +22,8 @@ namespace {
 // In 1/30 s, and at least one per frame: bounds the cost.
 constexpr int kKeyframesToTry = 1;
 
-// Shortest time between two frames that are found in another part of their own map, seconds: the
-// camera then has a view of its own. Nothing waits for a loop.
+// Shortest time between two frames that are found in another part of their own map, seconds, so
+// that their views differ. A pose in a saved map is waited for, a loop is not.
 constexpr double kLoopInterval = 0.2;
 
 size_t NumKeyframes(const InactiveMaps& maps) {

@@ -22,6 +22,15 @@ class MapVersionsTest : public TemporaryFolder {
     std::filesystem::copy_file(std::filesystem::path(MSC_VO_MAPS_FOLDER) / name, Path(name));
     return Path(name);
   }
+  // Checks and loads the file of a version.
+  MapContents Load(int version) const {
+    const std::string path = Copy("version_" + std::to_string(version) + ".map");
+    EXPECT_NO_THROW(CheckMap(path));
+    EXPECT_EQ(SummarizeMap(path).version, version);
+    MapContents contents = LoadMap(path);
+    EXPECT_EQ(contents.submaps.size(), 1u);
+    return contents;
+  }
 };
 
 TEST_F(MapVersionsTest, ReadsVersion1) {
@@ -62,11 +71,8 @@ TEST_F(MapVersionsTest, ReadsVersion1) {
 }
 
 TEST_F(MapVersionsTest, ReadsThePlanesOfVersion2) {
-  const std::string path = Copy("version_2.map");
-  EXPECT_NO_THROW(CheckMap(path));
-  EXPECT_EQ(SummarizeMap(path).version, 2);
-  const MapContents contents = LoadMap(path);
-  ASSERT_EQ(contents.submaps.size(), 1u);
+  const MapContents contents = Load(2);
+  ASSERT_FALSE(contents.submaps.empty());
   EXPECT_EQ(contents.submaps[0].map.keyframes().size(), 7u);
   const SavedPlanes& planes = contents.submaps[0].planes;
   ASSERT_EQ(planes.planes.size(), 6u);
@@ -81,11 +87,8 @@ TEST_F(MapVersionsTest, ReadsThePlanesOfVersion2) {
 }
 
 TEST_F(MapVersionsTest, ReadsTheFalseDepthsOfVersion3) {
-  const std::string path = Copy("version_3.map");
-  EXPECT_NO_THROW(CheckMap(path));
-  EXPECT_EQ(SummarizeMap(path).version, 3);
-  const MapContents contents = LoadMap(path);
-  ASSERT_EQ(contents.submaps.size(), 1u);
+  const MapContents contents = Load(3);
+  ASSERT_FALSE(contents.submaps.empty());
   std::vector<LandmarkId> false_depths;
   for (const auto& [id, point] : contents.submaps[0].map.points()) {
     if (point.has_false_depth) false_depths.push_back(id);

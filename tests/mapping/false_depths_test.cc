@@ -88,8 +88,9 @@ class FalseDepthsTest : public testing::Test {
     return count;
   }
 
-  // Expects the flag of the landmarks at the pixels of the newest keyframe that `is_false` holds
-  // for, but for those at its border, which may be in another cell than their pixel.
+  // Expects flags where `is_false` holds for the pixel in the newest keyframe, and no others.
+  // Pixels near the border of that region are skipped: their landmarks may project into the next
+  // cell.
   template <typename L, typename IsFalse>
   void ExpectFalse(const IsFalse& is_false) const {
     constexpr double kBorder = 8.0;
@@ -106,6 +107,11 @@ class FalseDepthsTest : public testing::Test {
       if (is_at_border) continue;
       EXPECT_EQ(map_.Find<L>(slots[i])->has_false_depth, is_false(pixel)) << pixel.transpose();
     }
+  }
+
+  void ExpectNoFlags() const {
+    EXPECT_EQ(NumFalse<PointLandmark>(), 0);
+    EXPECT_EQ(NumFalse<LineLandmark>(), 0);
   }
 
   PinholeCamera camera_{525.0, 525.0, 319.5, 239.5, 640, 480};
@@ -156,16 +162,14 @@ TEST_F(FalseDepthsTest, FlagsSingleLandmark) {
 TEST_F(FalseDepthsTest, AcceptsAWrongLengthOfTheMotion) {
   Build([](const Eigen::Vector2d&) { return 1.0; }, 1.05);
   Find();
-  EXPECT_EQ(NumFalse<PointLandmark>(), 0);
-  EXPECT_EQ(NumFalse<LineLandmark>(), 0);
+  ExpectNoFlags();
 }
 
 // The measured surface cannot be farther than the visible one.
 TEST_F(FalseDepthsTest, AcceptsDepthsThatAreTooFar) {
   Build([](const Eigen::Vector2d& pixel) { return IsBehindPane(pixel) ? 1.05 : 1.0; });
   Find();
-  EXPECT_EQ(NumFalse<PointLandmark>(), 0);
-  EXPECT_EQ(NumFalse<LineLandmark>(), 0);
+  ExpectNoFlags();
 }
 
 TEST_F(FalseDepthsTest, ClearsUnsupportedFlag) {
@@ -173,8 +177,7 @@ TEST_F(FalseDepthsTest, ClearsUnsupportedFlag) {
   map_.SetHasFalseDepth<PointLandmark>(map_.points().begin()->first + 200, true);
   map_.SetHasFalseDepth<LineLandmark>(map_.lines().begin()->first + 10, true);
   Find();
-  EXPECT_EQ(NumFalse<PointLandmark>(), 0);
-  EXPECT_EQ(NumFalse<LineLandmark>(), 0);
+  ExpectNoFlags();
 }
 
 TEST_F(FalseDepthsTest, ClearsFlagWithoutParallax) {

@@ -103,8 +103,8 @@ TEST_P(KeyframeGraphTest, DriftsAsATurnWithSystematicErrorsDoes) {
               0.15 * expected);
 }
 
-// A step that edges of 1 to r steps bridge, each with the same variance v, has the variance
-// v / (1 + 4 + ... + r^2), but for those at the ends of the path.
+// If edges of 1 to r steps bridge a step, each with the same variance v, its variance is
+// v / (1 + 4 + ... + r^2), and larger near the ends of the path.
 TEST_P(KeyframeGraphTest, HasIndependentErrorsOtherwise) {
   double sum_of_squares = 0.0;
   for (int steps = 1; steps <= Reach(); ++steps) sum_of_squares += steps * steps;
