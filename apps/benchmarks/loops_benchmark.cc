@@ -150,7 +150,7 @@ int RunWorlds(int argc, char** argv) {
   app.add_option("--seed", options.seed, "Seed of the first world")->capture_default_str();
   app.add_option("--path", options.path, "Path through the worlds")->capture_default_str();
   app.add_option("--scene", scene, "Scene of all worlds; default: all four in turn")
-      ->check(CLI::IsMember({"rooms", "mirrored", "floors", "desks"}));
+      ->check(CLI::IsMember({"rooms", "mirrored", "floors", "desks", "gallery"}));
   CLI11_PARSE(app, argc, argv);
   std::printf(
       "scene      seed path returns images rendering odometry      APE tracked segments claims "

@@ -41,34 +41,49 @@ double DepthRatio(const Frame& frame, const Eigen::Vector3d& point) {
   return nearest > 0.0 ? 1.0 / (nearest * point.z()) : 0.0;
 }
 
-// Cells of `a` whose surface lies in the free space of `b`.
-int NumInFreeSpace(const Frame& a, const Frame& b, const Rigid3& b_from_a) {
-  int number = 0;
+// What a ratio of depths tells of its point.
+bool IsFree(double ratio) { return ratio > 1.0 + DepthRanges::kTolerance; }
+bool IsSurface(double ratio) { return std::abs(ratio - 1.0) <= DepthRanges::kTolerance; }
+
+// Of the cells of `a`.
+SurfaceAgreement CompareCells(const Frame& a, const Frame& b, const Rigid3& b_from_a) {
+  SurfaceAgreement agreement;
   for (int row = 0; row < DepthRanges::kRows; ++row) {
     for (int column = 0; column < DepthRanges::kColumns; ++column) {
       const DepthRanges::Cell& cell = a.depth_ranges.At(column, row);
       if (!cell.HasDepth()) continue;
       const Eigen::Vector2d pixel = DepthRanges::CellCenter(a.camera, column, row);
-      const Eigen::Vector3d surface = a.camera.BackProject(pixel, 1.0 / cell.min_inverse_depth);
-      if (IsInFreeSpace(b, b_from_a * surface)) ++number;
+      const Eigen::Vector3d surface =
+          b_from_a * a.camera.BackProject(pixel, 1.0 / cell.min_inverse_depth);
+      const double ratio = DepthRatio(b, surface);
+      if (IsFree(ratio)) ++agreement.num_contradictions;
+      if (IsSurface(ratio)) ++agreement.num_same;
     }
   }
-  return number;
+  return agreement;
 }
 
 }  // namespace
 
 bool IsInFreeSpace(const Frame& frame, const Eigen::Vector3d& point) {
-  return DepthRatio(frame, point) > 1.0 + DepthRanges::kTolerance;
+  return IsFree(DepthRatio(frame, point));
 }
 
 bool ShowsSurface(const Frame& frame, const Eigen::Vector3d& point) {
-  return std::abs(DepthRatio(frame, point) - 1.0) <= DepthRanges::kTolerance;
+  return IsSurface(DepthRatio(frame, point));
+}
+
+SurfaceAgreement CompareSurfaces(const Frame& a, const Frame& b, const Rigid3& b_from_a) {
+  if (a.depth_ranges.cells.empty() || b.depth_ranges.cells.empty()) return {};
+  const SurfaceAgreement of_a = CompareCells(a, b, b_from_a);
+  const SurfaceAgreement of_b = CompareCells(b, a, b_from_a.Inverse());
+  return {of_a.num_same + of_b.num_same, of_a.num_contradictions + of_b.num_contradictions};
 }
 
 int NumFreeSpaceViolations(const Frame& a, const Frame& b, const Rigid3& b_from_a) {
   if (a.depth_ranges.cells.empty() || b.depth_ranges.cells.empty()) return 0;
-  return std::max(NumInFreeSpace(a, b, b_from_a), NumInFreeSpace(b, a, b_from_a.Inverse()));
+  return std::max(CompareCells(a, b, b_from_a).num_contradictions,
+                  CompareCells(b, a, b_from_a.Inverse()).num_contradictions);
 }
 
 }  // namespace msc_vo

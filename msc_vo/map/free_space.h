@@ -16,11 +16,18 @@ bool IsInFreeSpace(const Frame& frame, const Eigen::Vector3d& point);
 /// shows around its pixel is at that depth, to 5 %.
 bool ShowsSurface(const Frame& frame, const Eigen::Vector3d& point);
 
-/// Number of cells of the depth ranges of one frame whose surface lies in the free space of the
-/// other. The larger number of both directions; 0 if the ranges of one are unknown.
-///
-/// In a static scene and at the correct pose, violations come only from depth errors. Occluded
-/// surfaces are not counted.
+/// How the surfaces of two frames agree: cells of the depth ranges of either frame.
+struct SurfaceAgreement {
+  int num_same = 0;            ///< whose surface the other frame shows
+  int num_contradictions = 0;  ///< whose surface lies in the free space of the other frame
+};
+
+/// Compares the surfaces of two frames. Occluded ones are not counted, and none if the depth ranges
+/// of a frame are unknown. In a static scene and at the correct pose, contradictions come only from
+/// depth errors.
+SurfaceAgreement CompareSurfaces(const Frame& a, const Frame& b, const Rigid3& b_from_a);
+
+/// The contradictions of CompareSurfaces() in that direction that has more of them.
 int NumFreeSpaceViolations(const Frame& a, const Frame& b, const Rigid3& b_from_a);
 
 }  // namespace msc_vo

@@ -4,12 +4,48 @@
 #include "msc_vo/mapping/map_joiner.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "msc_vo/factors/chi_square.h"
 #include "msc_vo/geometry/motion_limits.h"
 #include "msc_vo/mapping/map_correction.h"
+#include "msc_vo/structure/axis_association.h"
 
 namespace msc_vo {
+
+namespace {
+
+// Whether nearly all lines of a map follow its axes: a building may have wings with axes of their
+// own, and maps of different wings have different axes.
+bool IsManhattan(const SubMap& submap) {
+  constexpr double kMinRatio = 2.0 / 3.0;
+  if (submap.axes.estimator().state() != AxesState::kRefined) return false;
+  int num_certain = 0, num_along_axes = 0;
+  for (const auto& [id, line] : submap.map.lines()) {
+    if (line.direction_sigma > kMaxAxisAngle) continue;
+    ++num_certain;
+    if (submap.axes.AxisOf(line)) ++num_along_axes;
+  }
+  return num_along_axes >= kMinRatio * num_certain;
+}
+
+// Whether the Manhattan axes of two worlds are parallel, up to their covariances, or one of the
+// worlds has none.
+bool HaveSameAxes(const SubMap& a, const SubMap& b, const MapAlignment& alignment) {
+  if (!IsManhattan(a) || !IsManhattan(b)) return true;
+  const AxesEstimator &axes_a = a.axes.estimator(), &axes_b = b.axes.estimator();
+  const Eigen::Quaterniond axes_a_from_b = axes_a.world_from_axes().conjugate() *
+                                           alignment.a_from_b.rotation() * axes_b.world_from_axes();
+  // Of the axis that is farthest from all axes of the other world.
+  const Eigen::Matrix3d cosines = axes_a_from_b.toRotationMatrix().cwiseAbs();
+  const double angle = std::acos(std::min(1.0, cosines.colwise().maxCoeff().minCoeff()));
+  const double variance = axes_a.sigma() * axes_a.sigma() + axes_b.sigma() * axes_b.sigma() +
+                          alignment.covariance.topLeftCorner<3, 3>().trace() / 3.0;
+  return angle * angle <= kOutlierChiSquare[3] * variance;
+}
+
+}  // namespace
 
 void MapJoiner::AppendPoses(const Map& map, const Rigid3& map_from_world,
                             std::vector<PoseInMap>* poses) const {
@@ -93,7 +129,8 @@ std::optional<MapJoin> MapJoiner::TryJoin(Atlas* atlas) {
   if (!alignment) return std::nullopt;
   const SubMap& moved = inactive_is_kept ? current : *inactive;
   const SubMap& kept = inactive_is_kept ? *inactive : current;
-  if (!IsPossibleMotion(moved.map, kept.map, alignment->a_from_b)) {
+  if (!IsPossibleMotion(moved.map, kept.map, alignment->a_from_b) ||
+      !HaveSameAxes(moved, kept, *alignment)) {
     Forget(in_both, alignment->inliers);
     ++num_refused_;
     return std::nullopt;

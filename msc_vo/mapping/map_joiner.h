@@ -37,13 +37,13 @@ class MapJoiner {
   void Add(const KeyframeRevisit& found) { AddRecent(found, &common_keyframes_); }
 
   /// Aligns the current map with the inactive one that keyframes were found in last, joins the two
-  /// if the keyframes agree (AlignMaps) and the camera can have moved from one map into the other
-  /// in the time that it had (MotionLimits), and merges the landmarks that both maps have of the
-  /// same features. std::nullopt if they are not joined; keyframes that agree on an impossible
-  /// motion are forgotten.
+  /// if the keyframes agree (AlignMaps), the camera can have moved from one map into the other in
+  /// the time that it had (MotionLimits), and the Manhattan axes of both are parallel, and merges
+  /// the landmarks that both maps have of the same features. std::nullopt if they are not joined;
+  /// keyframes that agree on an impossible motion or on other axes are forgotten.
   std::optional<MapJoin> TryJoin(Atlas* atlas);
 
-  /// Alignments of the run so far that keyframes agreed on, but whose motion was impossible.
+  /// Alignments of the run so far that keyframes agreed on, but that motion or axes excluded.
   int num_refused() const { return num_refused_; }
 
   /// Forgets the keyframes of the current map: another one begins.

@@ -12,6 +12,7 @@
 #include "msc_vo/map/path_covariance.h"
 #include "msc_vo/pose_estimation/relocalizer.h"
 #include "msc_vo/tracking/frame_pose.h"
+#include "msc_vo/tracking/place_evidence.h"
 #include "msc_vo/tracking/pose_support.h"
 #include "msc_vo/tracking/search_budget.h"
 
@@ -162,7 +163,11 @@ std::optional<Revisit> PlaceSearch::FindInInactiveMaps(const TrackedFrame& track
     const Map& map = *FindMapOf(maps, id);
     std::optional<Revisit> found =
         Relocalize(tracked, snapshot.noise_scale, map, *map.FindKeyframe(id));
-    if (!found) continue;
+    if (!found || ContradictsSurfaces(tracked, snapshot.map, *found, map)) continue;
+    // Within a session, the motion between two maps speaks for itself (MapJoiner).
+    const bool is_ambiguous =
+        map.IsOfEarlierSession(id) && ShowsOnePlane(*found, map, options_.min_matches);
+    if (is_ambiguous) continue;
     const std::optional<Revisit> rival = FindRival(tracked, snapshot, map, *found, places);
     const bool is_certain =
         !rival && look_alikes_.AreExcluded(options_, tracked, snapshot, map, *found);
@@ -214,8 +219,9 @@ std::optional<Revisit> PlaceSearch::FindLoop(const TrackedFrame& tracked,
     const PoseCovariance covariance = CovarianceSince(tracked, paths, keyframe->id);
     if (!CanShowSame(tracked, *keyframe, reach, covariance)) continue;
     std::optional<Revisit> found = Relocalize(tracked, snapshot.noise_scale, map, *keyframe);
-    if (found && IsPossible(tracked, map, paths, *found)) return found;
-    return std::nullopt;
+    const bool is_accepted = found && IsPossible(tracked, map, paths, *found) &&
+                             !ContradictsSurfaces(tracked, map, *found, map);
+    return is_accepted ? found : std::nullopt;
   }
   return std::nullopt;
 }

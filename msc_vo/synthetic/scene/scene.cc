@@ -63,8 +63,8 @@ std::optional<double> Scene::CastRay(const Eigen::Vector3d& origin,
 
 const std::vector<std::string>& SceneKindNames() {
   static const std::vector<std::string> names = {
-      "room",     "corridor", "bare",  "slanted", "house",  "box",      "rooms",
-      "mirrored", "floors",   "desks", "blank",   "zigzag", "dead-end", "poster"};
+      "room",   "corridor", "bare",    "slanted", "house",  "box",      "rooms", "mirrored",
+      "floors", "desks",    "gallery", "blank",   "zigzag", "dead-end", "poster"};
   return names;
 }
 
@@ -77,7 +77,7 @@ std::optional<SceneKind> SceneKindFromName(const std::string& name) {
 
 bool HasLookAlikes(SceneKind kind) {
   return kind == SceneKind::kRooms || kind == SceneKind::kMirrored || kind == SceneKind::kFloors ||
-         kind == SceneKind::kDesks;
+         kind == SceneKind::kDesks || kind == SceneKind::kGallery;
 }
 
 namespace {
@@ -104,6 +104,8 @@ Scene MakeWithTour(SceneKind kind, uint64_t seed, const WalkOptions& walk) {
       return MakeFloors(seed, walk);
     case SceneKind::kDesks:
       return MakeDesks(seed, walk);
+    case SceneKind::kGallery:
+      return MakeGallery(seed, walk);
     case SceneKind::kBlank:
       return MakeBlank(seed);
     case SceneKind::kZigZag:

@@ -24,5 +24,6 @@ Scene MakeRooms(uint64_t seed, const WalkOptions& walk);
 Scene MakeMirrored(uint64_t seed, const WalkOptions& walk);
 Scene MakeFloors(uint64_t seed, const WalkOptions& walk);
 Scene MakeDesks(uint64_t seed, const WalkOptions& walk);
+Scene MakeGallery(uint64_t seed, const WalkOptions& walk);
 
 }  // namespace msc_vo

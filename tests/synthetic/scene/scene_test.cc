@@ -19,11 +19,11 @@ namespace {
 
 using Vec = Eigen::Vector3d;
 
-constexpr std::array<SceneKind, 14> kKinds = {
-    SceneKind::kRoom,    SceneKind::kCorridor, SceneKind::kBare,  SceneKind::kSlanted,
-    SceneKind::kHouse,   SceneKind::kBox,      SceneKind::kRooms, SceneKind::kMirrored,
-    SceneKind::kFloors,  SceneKind::kDesks,    SceneKind::kBlank, SceneKind::kZigZag,
-    SceneKind::kDeadEnd, SceneKind::kPoster};
+constexpr std::array<SceneKind, 15> kKinds = {
+    SceneKind::kRoom,    SceneKind::kCorridor, SceneKind::kBare,   SceneKind::kSlanted,
+    SceneKind::kHouse,   SceneKind::kBox,      SceneKind::kRooms,  SceneKind::kMirrored,
+    SceneKind::kFloors,  SceneKind::kDesks,    SceneKind::kBlank,  SceneKind::kZigZag,
+    SceneKind::kDeadEnd, SceneKind::kPoster,   SceneKind::kGallery};
 
 // True if a direction is one of the world's axes, to 1e-6 radians.
 bool IsAxis(const Vec& direction) {

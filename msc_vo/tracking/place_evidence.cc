@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/tracking/place_evidence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "msc_vo/geometry/plane.h"
+#include "msc_vo/geometry/so3.h"
+#include "msc_vo/map/free_space.h"
+
+namespace msc_vo {
+
+namespace {
+
+using Places = std::vector<Eigen::Vector3d>;  // metres, world
+
+Places MatchedPlaces(const FrameMatches& matches, const Map& map) {
+  Places places;
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    for (const auto& match : OfKind<L>(matches)) {
+      if (const L* landmark = map.Find<L>(match.id)) places.push_back(landmark->Center());
+    }
+  });
+  return places;
+}
+
+Places AllPlaces(const Map& map) {
+  Places places;
+  ForEachLandmarkKind([&](auto kind) {
+    for (const auto& [id, landmark] : map.landmarks<typename decltype(kind)::Landmark>()) {
+      places.push_back(landmark.Center());
+    }
+  });
+  return places;
+}
+
+// Places that are not in a plane, to 3 % of their distance from the camera.
+int NumBeside(const Plane& plane, const Eigen::Vector3d& camera, const Places& places) {
+  constexpr double kTolerance = 0.03;
+  const auto is_beside = [&](const Eigen::Vector3d& place) {
+    return std::abs(plane.normal().dot(place) + plane.offset()) >
+           kTolerance * (place - camera).norm();
+  };
+  return static_cast<int>(std::count_if(places.begin(), places.end(), is_beside));
+}
+
+// The plane through three of the places that contains most of them. Not empty.
+Plane DominantPlane(const Places& places, const Eigen::Vector3d& camera) {
+  constexpr int kNumTrials = 20;  // a plane with nearly all places is hardly missed by one
+  std::mt19937 random(1);
+  const auto draw = [&]() -> const Eigen::Vector3d& { return places[random() % places.size()]; };
+  Plane best;
+  int least = static_cast<int>(places.size()) + 1;
+  for (int trial = 0; trial < kNumTrials; ++trial) {
+    const Eigen::Vector3d &a = draw(), &b = draw(), &c = draw();
+    const Eigen::Vector3d normal = (b - a).cross(c - a).normalized();
+    if (!(normal.norm() > 0.0)) continue;  // on one line
+    const Plane plane(normal, -normal.dot(a));
+    const int num = NumBeside(plane, camera, places);
+    if (num < least) {
+      least = num;
+      best = plane;
+    }
+  }
+  return best;
+}
+
+struct View {
+  const Frame* frame = nullptr;
+  Rigid3 cam_from_world;
+};
+
+// Appends a keyframe and those that share landmarks with it, most first.
+void AppendViewsAround(const Map& map, KeyframeId reference, std::vector<View>* views) {
+  constexpr size_t kMaxViews = 10;  // bounds the cost
+  const auto append = [&](KeyframeId id) {
+    const Keyframe& keyframe = *map.FindKeyframe(id);
+    views->push_back({keyframe.frame.get(), keyframe.cam_from_world});
+  };
+  append(reference);
+  for (const Map::Covisible& covisible : map.FindCovisible(reference)) {
+    if (views->size() >= kMaxViews) return;
+    append(covisible.keyframe);
+  }
+}
+
+// How much two views differ: the angle between them, and their distance in typical distances of
+// surfaces.
+double Difference(const View& a, const View& b) {
+  constexpr double kDistance = 2.0;  // metres
+  const Rigid3 b_from_a = b.cam_from_world * a.cam_from_world.Inverse();
+  return LogSO3(b_from_a.rotation()).norm() + b_from_a.translation().norm() / kDistance;
+}
+
+}  // namespace
+
+bool ShowsOnePlane(const Revisit& found, const Map& map, int min_matches) {
+  const Places places = MatchedPlaces(found.matches, map);
+  if (places.empty()) return false;
+  const Rigid3 cam_from_world = found.cam_from_reference * map.CamFromWorld(found.reference);
+  const Eigen::Vector3d camera = cam_from_world.OriginInSource();
+  const Plane plane = DominantPlane(places, camera);
+  return NumBeside(plane, camera, places) < min_matches &&
+         NumBeside(plane, camera, AllPlaces(map)) >= min_matches;
+}
+
+bool ContradictsSurfaces(const TrackedFrame& tracked, const Map& own, const Revisit& found,
+                         const Map& map) {
+  // Twice the largest ratio of true revisits (docs/lab/loops.md).
+  constexpr double kMaxRatio = 0.01;
+  std::vector<View> views{{tracked.frame.get(), tracked.cam_from_world}}, place;
+  if (own.FindKeyframe(tracked.reference) != nullptr) {
+    AppendViewsAround(own, tracked.reference, &views);
+  }
+  AppendViewsAround(map, found.reference, &place);
+  const Rigid3 found_from_world = found.cam_from_reference * map.CamFromWorld(found.reference);
+  const Rigid3 own_from_world = tracked.cam_from_world.Inverse() * found_from_world;
+  SurfaceAgreement sum;
+  for (View view : views) {
+    view.cam_from_world = view.cam_from_world * own_from_world;
+    const View& nearest = *std::min_element(
+        place.begin(), place.end(),
+        [&](const View& a, const View& b) { return Difference(a, view) < Difference(b, view); });
+    const SurfaceAgreement agreement = CompareSurfaces(
+        *nearest.frame, *view.frame, view.cam_from_world * nearest.cam_from_world.Inverse());
+    sum.num_same += agreement.num_same;
+    sum.num_contradictions += agreement.num_contradictions;
+  }
+  return sum.num_contradictions > kMaxRatio * (sum.num_same + sum.num_contradictions);
+}
+
+}  // namespace msc_vo
