@@ -247,7 +247,6 @@ int Run(const ReplayArguments& arguments, Configuration configuration, Resumed* 
   }
   SequenceRun run = RunSequence(decoder, configuration, arguments.run, interrupt, callbacks);
   run.context.views = views.TakeViews();
-  run.context.place = map.place();
   if (resumed != nullptr) run.context.command_line = resumed->identity.command_line;
   if (!run.HasImages()) {
     if (run.exit_code == kExitError) throw std::runtime_error(run.context.outcome);
