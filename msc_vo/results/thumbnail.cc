@@ -14,8 +14,8 @@ namespace msc_vo {
 
 namespace {
 
-// The image, reduced so that its `size` (one of its sides) is at most `max_size`, by an integer
-// factor, for which averaging is fast.
+// The image, reduced by the integer factor, for which averaging is fast, that makes `size` at most
+// `max_size`.
 cv::Mat Reduced(const cv::Mat& gray, int size, int max_size) {
   const int factor = std::max(1, (size + max_size - 1) / max_size);
   if (factor == 1) return gray;
@@ -38,16 +38,20 @@ std::string EncodeThumbnail(const cv::Mat& gray) {
 std::string EncodeMapImage(const RgbdImage& image) {
   constexpr int kMaxSize = 160;
   constexpr size_t kMaxBytes = 2000;
-  constexpr int kBestQuality = 60, kWorstQuality = 2;  // percent
+  constexpr int kBestQuality = 60, kWorstQuality = 10;  // percent
   cv::Mat gray = image.gray;
   if (!image.mask.empty()) {
     gray = gray.clone();
     gray.setTo(0, image.mask);
   }
-  const cv::Mat small = Reduced(gray, std::max(gray.cols, gray.rows), kMaxSize);
+  cv::Mat small = Reduced(gray, std::max(gray.cols, gray.rows), kMaxSize);
+  std::string jpeg = EncodeJpeg(small, kWorstQuality);
+  while (jpeg.size() > kMaxBytes) {  // noise
+    small = Reduced(small, 2, 1);
+    jpeg = EncodeJpeg(small, kWorstQuality);
+  }
   // The best quality that fits.
   int best = kWorstQuality, too_good = kBestQuality + 1;
-  std::string jpeg = EncodeJpeg(small, best);
   while (too_good - best > 1) {
     const int quality = (best + too_good) / 2;
     std::string candidate = EncodeJpeg(small, quality);
