@@ -68,7 +68,7 @@ class FramePanel {
     this.place.hidden = !place;
     if (!place) return;
     const sides = [
-      [place.jpeg, `frame ${place.frame}, found in the map`],
+      [place.jpeg, `frame ${place.frame} of the run`],
       [place.keyframe_jpeg, `keyframe ${place.keyframe} of the map`],
     ];
     this.place.querySelectorAll("figure").forEach((figure, i) => {
