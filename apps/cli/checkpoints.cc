@@ -43,7 +43,7 @@ void Checkpoints::Restore(Odometry* odometry, CostMeter* cost, LoopProgress* pro
     odometry->Restore(&archive);
     if (parts_.gravity != nullptr) archive(*parts_.gravity);
     RunCost earlier_cost;
-    archive(*progress, earlier_cost, *parts_.views);
+    archive(*progress, earlier_cost, *parts_.views, *parts_.map);
     cost->AddEarlier(earlier_cost);
   });
   Log().info("resumed at image {} from {}", progress->num_images, file_.path());
@@ -98,7 +98,7 @@ void Checkpoints::Write(Odometry* odometry, const CostMeter& cost, const LoopPro
                                // Waits for the mapper, which calls the gravity factors.
                                if (!odometry->Save(&archive)) return false;
                                if (parts_.gravity != nullptr) archive(*parts_.gravity);
-                               archive(progress, cost.Read(), *parts_.views);
+                               archive(progress, cost.Read(), *parts_.views, *parts_.map);
                                return true;
                              },
                              max_new_bytes);

@@ -12,6 +12,7 @@
 #include "apps/cli/frame_loop.h"
 #include "apps/cli/replay_views.h"
 #include "apps/cli/run_identity.h"
+#include "apps/cli/run_map.h"
 #include "msc_vo/checkpoint/checkpoint_file.h"
 #include "msc_vo/inertial/gravity_factors.h"
 #include "msc_vo/odometry/odometry.h"
@@ -32,6 +33,7 @@ RunIdentity ReadIdentity(CheckpointFile* file);
 /// The parts of a replay that have a state, apart from the odometry.
 struct CheckpointedParts {
   ReplayViews* views = nullptr;
+  RunMap* map = nullptr;
   GravityFactors* gravity = nullptr;  ///< null: none
 };
 

@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <iostream>
+#include <iterator>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -12,6 +14,7 @@
 
 #include "apps/cli/commands.h"
 #include "msc_vo/exports/map_export.h"
+#include "msc_vo/map_file/map_images.h"
 #include "msc_vo/map_file/map_reader.h"
 #include "msc_vo/map_file/map_writer.h"
 #include "msc_vo/odometry/map_merge.h"
@@ -47,13 +50,29 @@ void PrintInfo(const std::string& file) {
               << (submap.num_planes > 0 ? ", " + std::to_string(submap.num_planes) + " planes" : "")
               << "\n";
   }
-  std::cout << summary.num_loop_edges << " loop edges" << std::endl;
+  std::cout << summary.num_loop_edges << " loop edges\n"
+            << "images of " << summary.num_images << " of " << num_keyframes << " keyframes"
+            << std::endl;
+}
+
+// Writes the images of keyframes, named by their ids.
+void ExportImages(const std::string& file, const std::string& folder) {
+  const MapImages images(file);
+  const std::vector<KeyframeId> keyframes = images.Keyframes();
+  if (keyframes.empty()) return;
+  const std::filesystem::path path = std::filesystem::path(folder) / "images";
+  MakeFolder(path.string());
+  for (const KeyframeId id : keyframes) {
+    const std::string name = FormatText("%06lld.jpg", static_cast<long long>(id));  // sorts by name
+    WriteFile((path / name).string(), images.Read(id));
+  }
 }
 
 void Export(const std::string& file, const std::string& folder) {
   const MapContents contents = LoadMap(file);
   RefuseToOverwrite({file}, folder);
   ExportMap(contents, folder);
+  ExportImages(file, folder);
 }
 
 void PrintMerge(const std::string& file, const MapMerge& merge) {
@@ -77,13 +96,19 @@ void Merge(const std::vector<std::string>& files, const std::string& output) {
   }
   CheckWritable(output);
   MapContents contents = LoadMap(files.front());
+  std::map<KeyframeId, MapImages> images;  // of each file, by what is added to its ids
+  images.emplace(0, MapImages(files.front()));
   for (size_t i = 1; i < files.size(); ++i) {
     MapMerge merge = MergeMaps({}, std::move(contents), LoadMap(files[i]));
     PrintMerge(files[i], merge);
     contents = std::move(merge.contents);
+    images.insert_or_assign(merge.keyframe_offset, MapImages(files[i]));
   }
   try {
-    SaveMap(output, std::move(contents));
+    SaveMap(output, std::move(contents), [&images](KeyframeId id) {
+      const auto& [offset, of_file] = *std::prev(images.upper_bound(id));
+      return of_file.Read(id - offset);
+    });
   } catch (...) {
     std::error_code ignored;
     std::filesystem::remove(output, ignored);  // it did not exist before
@@ -142,8 +167,8 @@ Command AddMapCommand(CLI::App* app) {
   command
       ->add_option("action", arguments->action,
                    "info: what the file contains; check: read all of it; export: write points and "
-                   "lines (PLY), keyframes (TUM) and the pose graph (g2o); merge: join the maps of "
-                   "several files by the places that they share")
+                   "lines (PLY), keyframes (TUM), their images (JPEG) and the pose graph (g2o); "
+                   "merge: join the maps of several files by the places that they share")
       ->required()
       ->check(CLI::IsMember({"info", "check", "export", "merge"}));
   command->add_option("files", arguments->files, "Map files (docs/map_file.md)")->required();

@@ -168,8 +168,17 @@ double MapInterval(const ReplayArguments& arguments, bool realtime) {
 void ContinueWith(std::vector<FrameResult> frames, const RunMap& map, RunFiles* files,
                   ReplayViews* views) {
   views->Continue(frames);
+  if (map.place()) views->ShowPlace(*map.place());
   for (FrameResult& frame : frames) frame = map.Reported(frame);
   files->Continue(frames);
+}
+
+// Shows a frame before its result is written.
+void ShowFrame(const TrackedImage& tracked, RunMap* map, ReplayViews* views) {
+  const bool had_place = map->place().has_value();
+  map->Add(tracked);
+  if (map->place() && !had_place) views->ShowPlace(*map->place());
+  views->Show(tracked);
 }
 
 // Writes a frame, and prints its pose if that was asked for.
@@ -213,7 +222,7 @@ int Run(const ReplayArguments& arguments, Configuration configuration, Resumed* 
   std::unique_ptr<Checkpoints> checkpoints;  // none in real time, which cannot be repeated
   if (!realtime) {
     checkpoints = MakeCheckpoints(identity, output, arguments.checkpoint_interval, resumed,
-                                  {&views, gravity.get()});
+                                  {&views, &map, gravity.get()});
   }
   files.AddExpendable(CheckpointFolder(output), [&] {
     checkpoints.reset();  // closes its files
@@ -229,7 +238,7 @@ int Run(const ReplayArguments& arguments, Configuration configuration, Resumed* 
   };
   callbacks.window = WindowRecorder(arguments.windows, decoder.index(), &window_problem);
   if (gravity) callbacks.window_factors = std::ref(*gravity);
-  callbacks.tracking = [&](const TrackedImage& tracked) { views.Show(tracked); };
+  callbacks.tracking = [&](const TrackedImage& tracked) { ShowFrame(tracked, &map, &views); };
   callbacks.checkpoints = checkpoints.get();
   if (resumed != nullptr) {
     callbacks.resume = [&](const std::vector<FrameResult>& frames) {

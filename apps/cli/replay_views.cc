@@ -131,6 +131,10 @@ void ReplayViews::Show(const TrackedImage& tracked) {
   if (run_) run_->Show(tracked);
 }
 
+void ReplayViews::ShowPlace(const PlaceView& place) {
+  if (run_) run_->ShowPlace(place);
+}
+
 void ReplayViews::Continue(const std::vector<FrameResult>& frames) {
   if (run_) run_->Continue(frames);
 }

@@ -48,6 +48,8 @@ class ReplayViews {
   void Continue(const std::vector<FrameResult>& frames);
   /// Takes a tracked frame.
   void Show(const TrackedImage& tracked);
+  /// Shows where the run was found in the map of earlier runs.
+  void ShowPlace(const PlaceView& place);
   /// Takes the result of every frame, also of those without an image; waits where a viewer has
   /// paused the run. Returns early if `is_interrupted` returns true.
   void Add(const FrameResult& frame, const std::function<bool()>& is_interrupted);

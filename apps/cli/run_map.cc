@@ -13,7 +13,10 @@
 
 #include "apps/cli/command_log.h"
 #include "msc_vo/logging/logger.h"
+#include "msc_vo/map/observer_count.h"
+#include "msc_vo/map_file/map_images.h"
 #include "msc_vo/map_file/map_reader.h"
+#include "msc_vo/results/thumbnail.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
@@ -22,6 +25,28 @@ namespace {
 
 bool AreSame(const MapSession& a, const MapSession& b) {
   return a.first_keyframe == b.first_keyframe && a.name == b.name;
+}
+
+// The keyframes of earlier sessions that show most of what the frame shows.
+std::vector<KeyframeId> EarlierKeyframes(const TrackedImage& tracked) {
+  const Map& map = tracked.map.map;
+  std::vector<KeyframeId> keyframes;
+  // A run that was not found has no such keyframe in its map, and ids ascend.
+  if (map.keyframes().empty() || !map.IsOfEarlierSession(map.keyframes().front().first)) {
+    return keyframes;
+  }
+  ObserverCount observers(map);
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    for (const auto& match : tracked.tracked.matches.Of<L>()) {
+      const L* const landmark = match.inlier ? map.Find<L>(match.id) : nullptr;
+      if (landmark != nullptr) observers.Add(*landmark);
+    }
+  });
+  for (const Map::Covisible& observer : observers.Ranked()) {
+    if (map.IsOfEarlierSession(observer.keyframe)) keyframes.push_back(observer.keyframe);
+  }
+  return keyframes;
 }
 
 }  // namespace
@@ -33,6 +58,10 @@ void AddMapArguments(CLI::App* command, MapArguments* arguments) {
                        "Map file: the run finds itself in it and extends it; created if it does "
                        "not exist")
           ->type_name("FILE");
+  command
+      ->add_flag("--no-map-images", arguments->no_images,
+                 "Leave the small images of the keyframes of this run out of the map")
+      ->needs(map);
   command
       ->add_option("--localize", arguments->localize,
                    "Map file that is only read: poses are in its world, from the first image on "
@@ -101,10 +130,53 @@ void RunMap::Begin(Odometry* odometry) {
   earlier_ = {};
 }
 
+void RunMap::Add(const TrackedImage& tracked) {
+  const KeyframeProposal& keyframe = tracked.tracked.keyframe;
+  if (writer_ && !arguments_.no_images && keyframe.is_due()) {
+    images_[keyframe.id] = EncodeMapImage(tracked.image);
+  }
+  if (!was_found_) FindPlace(tracked);
+}
+
+void RunMap::FindPlace(const TrackedImage& tracked) {
+  const std::vector<KeyframeId> keyframes = EarlierKeyframes(tracked);
+  if (keyframes.empty()) return;
+  was_found_ = true;
+  try {
+    const auto image = FirstImage(keyframes);
+    if (!image) return;
+    place_ = {static_cast<int>(tracked.result.id), EncodeMapImage(tracked.image), image->first,
+              image->second};
+  } catch (const std::exception& error) {
+    Log().warn("no image of the place in the map: {}", error.what());
+  }
+}
+
+std::optional<std::pair<KeyframeId, std::string>> RunMap::FirstImage(
+    const std::vector<KeyframeId>& keyframes) const {
+  std::optional<MapImages> read_only;
+  if (!writer_) read_only.emplace(arguments_.localize);
+  for (const KeyframeId id : keyframes) {
+    std::string jpeg = writer_ ? writer_->ReadImage(id) : read_only->Read(id);
+    if (!jpeg.empty()) return std::pair(id, std::move(jpeg));
+  }
+  return std::nullopt;
+}
+
 void RunMap::Save(Odometry* odometry) {
   if (!writer_) return;
   std::optional<MapContents> contents = odometry->ShareMaps(session_);
-  if (contents && !contents->submaps.empty()) writer_->Write(std::move(*contents));
+  if (!contents || contents->submaps.empty()) return;
+  KeyframeId next = 0;
+  for (const SavedSubMap& submap : contents->submaps) {
+    next = std::max(next, submap.map.next_keyframe());
+  }
+  writer_->Write(std::move(*contents), [this](KeyframeId id) {
+    const auto image = images_.find(id);
+    return image != images_.end() ? image->second : std::string();
+  });
+  // Saved, or of keyframes that the map does not have any more.
+  images_.erase(images_.begin(), images_.lower_bound(next));
 }
 
 void RunMap::SaveIfDue(Odometry* odometry) {

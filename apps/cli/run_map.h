@@ -3,25 +3,32 @@
 
 #pragma once
 
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include "msc_vo/map_file/map_writer.h"
 #include "msc_vo/odometry/localization.h"
 #include "msc_vo/odometry/odometry.h"
+#include "msc_vo/odometry/tracking_observer.h"
+#include "msc_vo/report/frame_view.h"
 #include "msc_vo/timing/stopwatch.h"
 
 namespace msc_vo {
 
 /// Arguments about a map that outlives the run.
 struct MapArguments {
-  std::string map;       ///< file that is extended, or created; may be empty
-  std::string localize;  ///< file that is only read; may be empty
+  std::string map;         ///< file that is extended, or created; may be empty
+  std::string localize;    ///< file that is only read; may be empty
+  bool no_images = false;  ///< leaves the images of the run out of the map
 };
 
-/// Declares --map and --localize.
+/// Declares --map, --no-map-images and --localize.
 void AddMapArguments(CLI::App* command, MapArguments* arguments);
 
 /// A name for the session of a run that begins now: the name of its sequence and the time. No other
@@ -50,13 +57,30 @@ class RunMap {
   /// Call before the first image, after the run has been restored if it is resumed. Throws
   /// std::runtime_error if another run has written the file since.
   void Begin(Odometry* odometry);
+  /// Call with every frame that has been tracked: keeps the image of a keyframe until it is saved
+  /// with the map, and finds where the run is in the map of earlier sessions.
+  void Add(const TrackedImage& tracked);
+  /// The place where the run was found in that map; nullopt if it was not found yet, or the map has
+  /// no image of the place.
+  const std::optional<PlaceView>& place() const { return place_; }
+
   /// Call after every image. A map that cannot be saved is a warning: the one before remains.
   void SaveIfDue(Odometry* odometry);
   /// Call at the end. Throws std::runtime_error that names the file if it cannot be written.
   void Save(Odometry* odometry);
 
+  /// Lists the state for a checkpoint.
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive(images_, was_found_, place_);
+  }
+
  private:
   void CheckResumable(const MapContents& run) const;
+  void FindPlace(const TrackedImage& tracked);
+  // The first of the keyframes that has an image in the file, and the image; nullopt: none has.
+  std::optional<std::pair<KeyframeId, std::string>> FirstImage(
+      const std::vector<KeyframeId>& keyframes) const;
 
   MapArguments arguments_;
   std::string session_;
@@ -68,6 +92,9 @@ class RunMap {
   Stopwatch since_saved_;
   double pause_;  // seconds until the next save
   bool has_warned_ = false;
+  std::map<KeyframeId, std::string> images_;  // of keyframes that are yet to be saved
+  bool was_found_ = false;
+  std::optional<PlaceView> place_;
 };
 
 }  // namespace msc_vo

@@ -110,8 +110,9 @@ void FinishOdometry(Odometry* odometry, SequenceRun* run) {
   }
 }
 
-// Saves the map for the last time.
+// Takes where the run was found in the map, and saves the map for the last time.
 void SaveMap(RunMap* map, Odometry* odometry, SequenceRun* run) {
+  run->context.place = map->place();
   try {
     map->Save(odometry);
   } catch (const std::exception& error) {

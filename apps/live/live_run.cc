@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "msc_vo/report/run_json.h"
-#include "msc_vo/results/frame_view_collector.h"
 #include "msc_vo/results/report_frame.h"
+#include "msc_vo/results/thumbnail.h"
 #include "msc_vo/results/tracked_features.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
@@ -111,6 +111,11 @@ std::vector<ReportFrame> LiveRun::MovedFrames(const MapSnapshot& snapshot) const
   return frames;
 }
 
+void LiveRun::ShowPlace(const PlaceView& place) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  place_ = place;
+}
+
 void LiveRun::Append(const FrameResult& frame) {
   if (frame.segment != kNoSegment && first_segment_ == kNoSegment) first_segment_ = frame.segment;
   const bool is_found = frame.world != kNoSegment && frame.world < first_segment_;
@@ -174,6 +179,7 @@ std::string LiveRun::Update(int num_frames, int map_version, int view) {
     }
     update.loops = loops_;
     update.found_frame = found_frame_;
+    update.place = place_;
     // A viewer does not get the image of a frame before the frame itself.
     if (view_ && view_->frame != view && view_->frame < end) {
       frame_view = view_;

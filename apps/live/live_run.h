@@ -43,6 +43,8 @@ class LiveRun {
   /// Takes features, image and map of a frame, before Add(). Does next to nothing while nobody
   /// watches. After a loop or a join of two maps, the frames so far move with the map.
   void Show(const TrackedImage& tracked);
+  /// Shows where the run was found in the map of earlier runs; before Show() of that frame.
+  void ShowPlace(const PlaceView& place);
   /// Adds a frame, then waits for its turn. Returns early if `is_interrupted` returns true.
   void Add(const FrameResult& frame, const std::function<bool()>& is_interrupted);
   /// Ends the run: viewers get the page of the finished report.
@@ -88,6 +90,7 @@ class LiveRun {
   int moved_version_ = -1;  // of the map with which the frames moved for the last time
   std::vector<ReportLoop> loops_;
   std::optional<int> found_frame_;
+  std::optional<PlaceView> place_;
   std::shared_ptr<const FrameView> view_;
   bool view_is_wanted_ = true;  // nobody waits for another one before the last was taken
   std::shared_ptr<const std::string> report_;

@@ -19,7 +19,7 @@ void BindFactors(pybind11::module_* module);       ///< cost functions, blocks a
 void BindFrame(pybind11::module_* module);         ///< FrameResult
 void BindCalibration(pybind11::module_* module);   ///< CalibrationEstimate
 void BindResult(pybind11::module_* module);        ///< Result
-void BindMap(pybind11::module_* module);           ///< Map
+void BindMap(pybind11::module_* module);           ///< Map, map_images
 void BindTrackedImage(pybind11::module_* module);  ///< TrackedImage
 void BindOdometry(pybind11::module_* module);      ///< Odometry and the contexts of its callbacks
 void BindEvaluation(pybind11::module_* module);    ///< evaluate and its errors

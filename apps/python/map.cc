@@ -3,6 +3,7 @@
 
 #include "apps/python/map.h"
 
+#include <map>
 #include <memory>
 #include <type_traits>
 
@@ -12,6 +13,7 @@
 #include "apps/python/arrays.h"
 #include "apps/python/bindings.h"
 #include "msc_vo/map/window_selection.h"
+#include "msc_vo/map_file/map_images.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
@@ -31,6 +33,13 @@ void AddObservations(const Map& map, const L& landmark, WindowData* window) {
       window->line_observations.push_back(in_window);
     }
   }
+}
+
+std::map<KeyframeId, py::bytes> ReadImages(const py::object& file) {
+  const MapImages images(PathArgument(file));
+  std::map<KeyframeId, py::bytes> all;
+  for (const KeyframeId id : images.Keyframes()) all.emplace(id, images.Read(id));
+  return all;
 }
 
 }  // namespace
@@ -83,6 +92,9 @@ void BindMap(py::module_* module) {
                           self.window.keyframes.size(), self.window.points.size(),
                           self.window.lines.size());
       });
+  module->def("map_images", &ReadImages, py::arg("file"),
+              "The small images in a map file: a dict with the bytes of a JPEG file by id of the "
+              "keyframe. RuntimeError if the file is no map, is damaged or in use.");
 }
 
 }  // namespace msc_vo

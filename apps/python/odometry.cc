@@ -4,6 +4,7 @@
 #include "msc_vo/odometry/odometry.h"
 
 #include <atomic>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -97,11 +98,16 @@ class PyOdometry {
     });
   }
 
-  void WriteMap(const py::object& file, const std::string& session) {
+  void WriteMap(const py::object& file, const std::string& session,
+                const std::map<KeyframeId, py::bytes>& images) {
     const std::string path = PathArgument(file);
+    const std::map<KeyframeId, std::string> jpegs(images.begin(), images.end());
     auto maps = Alone([&] { return odometry_->ShareMaps(session); });
     if (!maps) throw std::runtime_error(path + ": not written, since a keyframe step has failed");
-    SaveMap(path, std::move(*maps));
+    SaveMap(path, std::move(*maps), [&jpegs](KeyframeId id) {
+      const auto jpeg = jpegs.find(id);
+      return jpeg != jpegs.end() ? jpeg->second : std::string();
+    });
   }
 
   void SetTrackingObserver(const py::object& callback) {
@@ -282,7 +288,10 @@ void BindStorage(py::class_<PyOdometry>* odometry) {
            "Begins with the map of earlier sessions. only_localize: frames that are not in its "
            "world are lost (Localizer). ValueError after the first image.")
       .def("save_map", &PyOdometry::WriteMap, py::arg("file"), py::arg("session") = "",
-           "Waits for local mapping and replaces a file by the map of this and earlier sessions.")
+           py::kw_only(), py::arg("images") = py::dict(),
+           "Waits for local mapping and replaces a file by the map of this and earlier sessions. "
+           "images: bytes of a JPEG file of at most 64 KB by id of the keyframe; images that the "
+           "file has of keyframes of the map remain. ValueError on other bytes.")
       .def(
           "save", &PyOdometry::Save, py::arg("folder"),
           "Waits for local mapping and writes a checkpoint of the run, which replaces an earlier "

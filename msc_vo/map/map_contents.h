@@ -53,4 +53,12 @@ struct MapContents {
   std::vector<PoseGraphEdge> loops;  ///< of the keyframes that closed loops
 };
 
+/// The keyframe in any of the submaps; nullptr if there is none with this id.
+inline const Keyframe* FindKeyframe(const MapContents& contents, KeyframeId id) {
+  for (const SavedSubMap& submap : contents.submaps) {
+    if (const Keyframe* found = submap.map.FindKeyframe(id)) return found;
+  }
+  return nullptr;
+}
+
 }  // namespace msc_vo

@@ -72,7 +72,7 @@ SavedPlanes Renumbered(SavedPlanes planes, const IdOffset& offset) {
 
 }  // namespace
 
-void RenumberAfter(const MapContents& first, MapContents* second) {
+KeyframeId RenumberAfter(const MapContents& first, MapContents* second) {
   const IdOffset offset = OffsetAfter(first);
   for (MapSession& session : second->sessions) session.first_keyframe += offset.keyframe;
   for (SavedSubMap& submap : second->submaps) {
@@ -84,6 +84,7 @@ void RenumberAfter(const MapContents& first, MapContents* second) {
     edge.from += offset.keyframe;
     edge.to += offset.keyframe;
   }
+  return offset.keyframe;
 }
 
 }  // namespace msc_vo

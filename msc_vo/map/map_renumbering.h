@@ -9,7 +9,7 @@ namespace msc_vo {
 
 /// Gives the sessions, submaps, keyframes and landmarks of `second` ids that follow those of
 /// `first`, so that ids are unique over both. Keyframes that were removed from its maps are
-/// forgotten.
-void RenumberAfter(const MapContents& first, MapContents* second);
+/// forgotten. Returns what was added to the ids of its keyframes.
+KeyframeId RenumberAfter(const MapContents& first, MapContents* second);
 
 }  // namespace msc_vo

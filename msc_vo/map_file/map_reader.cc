@@ -64,6 +64,9 @@ MapFileSummary SummarizeMap(const std::string& path) {
     summary.version = SchemaVersion(database);
     summary.num_bytes =
         database.Integer("PRAGMA page_count") * database.Integer("PRAGMA page_size");
+    if (summary.version >= kFirstVersionWithImages) {
+      summary.num_images = database.Integer("SELECT count(*) FROM image");
+    }
     summary.num_loop_edges = database.Integer("SELECT count(*) FROM loop");
     SqliteStatement program = database.Prepare("SELECT program FROM map");
     if (program.Step()) summary.program = program.Bytes(0);

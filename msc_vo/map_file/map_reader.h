@@ -37,6 +37,7 @@ struct MapFileSummary {
   std::string program;  ///< that wrote it last
   std::vector<Session> sessions;
   std::vector<SubMap> submaps;
+  int64_t num_images = 0;      ///< keyframes with an image (MapImages)
   int64_t num_loop_edges = 0;  ///< between keyframes; several for each loop
   int64_t num_bytes = 0;       ///< of the file
 };

@@ -11,6 +11,7 @@
 #include "msc_vo/map_file/internal/blob.h"
 #include "msc_vo/map_file/internal/calibration_rows.h"
 #include "msc_vo/map_file/internal/feature_blob.h"
+#include "msc_vo/map_file/internal/image_rows.h"
 #include "msc_vo/map_file/internal/map_schema.h"
 #include "msc_vo/map_file/internal/plane_rows.h"
 #include "msc_vo/map_file/internal/row.h"
@@ -26,13 +27,6 @@ BlobWriter EncodeCovariance(const PoseCovariance& covariance) {
   BlobWriter blob;
   for (const double value : covariance.reshaped()) blob.F64(value);
   return blob;
-}
-
-const Keyframe* FindKeyframe(const MapContents& contents, KeyframeId id) {
-  for (const SavedSubMap& submap : contents.submaps) {
-    if (const Keyframe* found = submap.map.FindKeyframe(id)) return found;
-  }
-  return nullptr;
 }
 
 template <typename L>
@@ -59,8 +53,12 @@ void AddGeometry(const LineLandmark& line, RowWriter* row) {
 class TableWriter {
  public:
   TableWriter(const SqliteDatabase& database, const MapContents& before, const MapContents& now,
-              CalibrationRows* calibrations)
-      : database_(database), before_(before), now_(now), calibrations_(calibrations) {}
+              const KeyframeImageSource& images, CalibrationRows* calibrations)
+      : database_(database),
+        before_(before),
+        now_(now),
+        images_(images),
+        calibrations_(calibrations) {}
 
   void Write() {
     Erase();
@@ -80,6 +78,7 @@ class TableWriter {
   void WriteKeyframe(int submap, const Map& map, const Keyframe& keyframe);
   void WriteFalseDepths();
   void WriteFeatures(const Map& map, const Keyframe& keyframe);
+  void WriteImageOf(KeyframeId id);
   template <typename L>
   void WriteLandmark(int submap, const L& landmark, SqliteStatement* upsert);
   void WriteSmallTables();
@@ -89,10 +88,12 @@ class TableWriter {
   const SqliteDatabase& database_;
   const MapContents& before_;
   const MapContents& now_;
+  const KeyframeImageSource& images_;
   CalibrationRows* calibrations_;
   SqliteStatement keyframe_ = PrepareUpsert(database_, "keyframe", 10);
   SqliteStatement features_ = PrepareUpsert(database_, "features", 11);
   SqliteStatement plane_features_ = PrepareUpsert(database_, "plane_features", 3);
+  SqliteStatement image_ = PrepareUpsert(database_, "image", 3);
 };
 
 // Deletes what is in no map any more.
@@ -114,6 +115,7 @@ void TableWriter::Erase() {
       erase("keyframe", "id", id);
       erase("features", "keyframe", id);
       erase("plane_features", "keyframe", id);
+      erase("image", "keyframe", id);
     });
     ForEachLandmarkKind([&](auto kind) {
       using L = typename decltype(kind)::Landmark;
@@ -145,9 +147,16 @@ void TableWriter::WriteKeyframe(int submap, const Map& map, const Keyframe& keyf
   AddPose(keyframe.cam_from_world, &row);
   row.Execute();
   const Keyframe* const was = FindKeyframe(before_, keyframe.id);
-  const bool has_same_features =
-      was != nullptr && was->frame == keyframe.frame && was->landmarks == keyframe.landmarks;
+  const bool has_same_frame = was != nullptr && was->frame == keyframe.frame;
+  if (!has_same_frame) WriteImageOf(keyframe.id);
+  const bool has_same_features = has_same_frame && was->landmarks == keyframe.landmarks;
   if (!has_same_features) WriteFeatures(map, keyframe);
+}
+
+// Leaves the image that the file may have if no other is known.
+void TableWriter::WriteImageOf(KeyframeId id) {
+  const std::string jpeg = images_ ? images_(id) : "";
+  if (!jpeg.empty()) WriteImage(id, jpeg, &image_);
 }
 
 void TableWriter::WriteFeatures(const Map& map, const Keyframe& keyframe) {
@@ -242,7 +251,9 @@ void TableWriter::WriteLoop(int64_t id, const PoseGraphEdge& loop) {
   row.Blob(covariance.bytes()).Execute();
 }
 
-void EraseAll(const SqliteDatabase& database) {
+// Deletes the rows of keyframes and landmarks before another map replaces them.
+void EraseAll(const SqliteDatabase& database, const MapContents& contents) {
+  EraseOtherImages(database, contents);
   for (const char* table :
        {"calibration", "keyframe", "features", "plane_features", "point", "line"}) {
     database.Execute(std::string("DELETE FROM ") + table);
@@ -287,15 +298,20 @@ MapContents MapWriter::Load() {
   return contents;
 }
 
-void MapWriter::Write(MapContents contents) {
+std::string MapWriter::ReadImage(KeyframeId id) const {
+  return state_->is_empty ? "" : msc_vo::ReadImage(state_->database, id);
+}
+
+void MapWriter::Write(MapContents contents, const KeyframeImageSource& images) {
   State& state = *state_;
   CalibrationRows calibrations = state.is_known ? state.calibrations : CalibrationRows();
   const MapContents none;
   state.database.Transaction([&] {
     if (state.is_empty) CreateSchema(state.database);
     UpgradeSchema(state.database);
-    if (!state.is_known) EraseAll(state.database);
-    TableWriter(state.database, state.is_known ? state.written : none, contents, &calibrations)
+    if (!state.is_known) EraseAll(state.database, contents);
+    TableWriter(state.database, state.is_known ? state.written : none, contents, images,
+                &calibrations)
         .Write();
   });
   state.is_empty = false;
@@ -304,8 +320,8 @@ void MapWriter::Write(MapContents contents) {
   state.written = std::move(contents);
 }
 
-void SaveMap(const std::string& path, MapContents contents) {
-  MapWriter(path).Write(std::move(contents));
+void SaveMap(const std::string& path, MapContents contents, const KeyframeImageSource& images) {
+  MapWriter(path).Write(std::move(contents), images);
 }
 
 }  // namespace msc_vo

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "msc_vo/map/map_contents.h"
+#include "msc_vo/map_file/map_images.h"
 
 namespace msc_vo {
 
@@ -25,17 +26,24 @@ class MapWriter {
   MapContents Load();
 
   /// Makes the file contain this map, and writes only what has changed since the last call or
-  /// Load(): the maps must share their memory (Map::Share()) with those. Throws
-  /// std::runtime_error, and WriteError if the file cannot be written; the file then remains as it
-  /// was.
-  void Write(MapContents contents);
+  /// Load(): the maps must share their memory (Map::Share()) with those. `images` is asked for the
+  /// image of each keyframe whose frame is new to the file; where it has none, the file keeps the
+  /// image that it has. Throws std::runtime_error, WriteError if the file cannot be written, and
+  /// std::invalid_argument if an image is no JPEG file or larger than kMaxMapImageBytes; the file
+  /// then remains as it was.
+  void Write(MapContents contents, const KeyframeImageSource& images = {});
+
+  /// The image of a keyframe in the file; empty without one. Throws as LoadMap().
+  std::string ReadImage(KeyframeId id) const;
 
  private:
   struct State;
   std::unique_ptr<State> state_;
 };
 
-/// Writes a map. Replaces the map that the file contains, if there is one.
-void SaveMap(const std::string& path, MapContents contents);
+/// Writes a map. Replaces the map that the file contains, if there is one; images of its keyframes
+/// remain that are also keyframes of `contents` (same session, number and time stamp of the image).
+/// Throws as MapWriter.
+void SaveMap(const std::string& path, MapContents contents, const KeyframeImageSource& images = {});
 
 }  // namespace msc_vo

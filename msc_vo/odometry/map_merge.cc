@@ -186,7 +186,7 @@ class MapMerger {
 }  // namespace
 
 MapMerge MergeMaps(const OdometryOptions& options, MapContents first, MapContents second) {
-  RenumberAfter(first, &second);
+  const KeyframeId keyframe_offset = RenumberAfter(first, &second);
   RemoveEmptySubMaps(&first);
   RemoveEmptySubMaps(&second);
   if (!first.submaps.empty()) {
@@ -199,6 +199,7 @@ MapMerge MergeMaps(const OdometryOptions& options, MapContents first, MapContent
   merger.Add(std::move(second));
   MapMerge result = merger.Result();
   result.contents.sessions = std::move(sessions);
+  result.keyframe_offset = keyframe_offset;
   return result;
 }
 

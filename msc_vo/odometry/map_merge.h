@@ -16,6 +16,8 @@ struct MapMerge {
   MapContents contents;
   std::vector<MapJoin> joins;  ///< of submaps, in their order
   int num_loops = 0;           ///< closed after the joins
+  /// Added to the ids of the keyframes of the second map.
+  KeyframeId keyframe_offset = 0;
 };
 
 /// Merges the maps of two files (Odometry::ShareMaps(), LoadMap()). The keyframes of `second` are

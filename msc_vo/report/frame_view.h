@@ -61,6 +61,19 @@ struct FrameView {
   }
 };
 
+/// The place where a run was found in the map of earlier runs, as the run and the map show it.
+struct PlaceView {
+  int frame = 0;              ///< index into ReportData::frames
+  std::string jpeg;           ///< bytes of a JPEG file, of the frame
+  int64_t keyframe = 0;       ///< id in the map
+  std::string keyframe_jpeg;  ///< bytes of a JPEG file
+
+  template <typename Archive>
+  void Serialize(Archive& archive) {
+    archive.Fields(*this, frame, jpeg, keyframe, keyframe_jpeg);
+  }
+};
+
 /// Bytes that a view takes in memory and, before base64, in the page.
 inline size_t NumBytes(const FrameView& view) {
   return view.jpeg.size() + 5 * view.features.points.size() + 9 * view.features.lines.size();

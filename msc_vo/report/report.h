@@ -127,8 +127,9 @@ struct ReportData {
   std::vector<Eigen::Vector3d> odometry;
   /// Index of the first frame that was found in the map of earlier runs; nullopt: none.
   std::optional<int> found_frame;
-  ReportMap map;                 ///< at the end of the run
-  std::vector<FrameView> views;  ///< by ascending frame; may be empty
+  std::optional<PlaceView> place;  ///< where it was found; nullopt: not known
+  ReportMap map;                   ///< at the end of the run
+  std::vector<FrameView> views;    ///< by ascending frame; may be empty
   PinholeCamera camera;
   /// Up direction of an upright camera: -y, because y points down, or y if fy is negative. The mean
   /// over all frames is the up direction of the views.

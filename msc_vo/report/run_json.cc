@@ -203,6 +203,13 @@ Json ViewToJson(const FrameView& view) {
           {"line_colors", EncodeBase64(line_colors)}};
 }
 
+Json PlaceToJson(const PlaceView& place) {
+  return {{"frame", place.frame},
+          {"jpeg", EncodeBase64(place.jpeg.data(), place.jpeg.size())},
+          {"keyframe", place.keyframe},
+          {"keyframe_jpeg", EncodeBase64(place.keyframe_jpeg.data(), place.keyframe_jpeg.size())}};
+}
+
 // What both kinds of pages begin with.
 Json HeadToJson(const ReportData& data, const Eigen::Matrix3d& view_from_world) {
   const PinholeCamera& camera = data.camera;
@@ -255,6 +262,7 @@ std::string FormatRunJson(const ReportData& data) {
     json["odometry"] = EncodeBase64(positions);
   }
   if (data.found_frame) json["found"] = *data.found_frame;
+  if (data.place) json["place"] = PlaceToJson(*data.place);
   json["map"] = MapToJson(data.map);
   json["views"] = Json::array();
   for (const FrameView& view : data.views) json["views"].push_back(ViewToJson(view));
@@ -290,6 +298,7 @@ std::string FormatRunUpdate(const RunUpdate& update) {
     json["map"] = MapToJson(*update.map);
     json["loops"] = LoopsToJson(update.loops, update.num_processed);
     if (update.found_frame) json["found"] = *update.found_frame;
+    if (update.place) json["place"] = PlaceToJson(*update.place);
   }
   if (update.view != nullptr) json["views"] = Json::array({ViewToJson(*update.view)});
   return Dump(json);

@@ -42,6 +42,7 @@ struct RunUpdate {
   // Sent with the map:
   std::vector<ReportLoop> loops;   ///< so far
   std::optional<int> found_frame;  ///< as ReportData::found_frame
+  std::optional<PlaceView> place;  ///< as ReportData::place
 };
 
 /// The answer to a live page. Throws std::invalid_argument if the sizes of ReportFrame::stage_ms

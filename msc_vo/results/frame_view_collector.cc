@@ -6,26 +6,10 @@
 #include <algorithm>
 #include <utility>
 
-#include <opencv2/imgproc.hpp>
-
-#include "msc_vo/image_files/jpeg_image.h"
+#include "msc_vo/results/thumbnail.h"
 #include "msc_vo/results/tracked_features.h"
 
 namespace msc_vo {
-
-std::string EncodeThumbnail(const cv::Mat& gray) {
-  constexpr int kMaxWidth = 320;
-  constexpr int kQuality = 60;  // percent
-  // An integer factor, for which averaging is fast.
-  const int factor = std::max(1, (gray.cols + kMaxWidth - 1) / kMaxWidth);
-  cv::Mat small = gray;
-  if (factor > 1) {
-    const cv::Size size(gray.cols / factor, std::max(1, gray.rows / factor));
-    const cv::Rect covered(0, 0, size.width * factor, std::min(gray.rows, size.height * factor));
-    cv::resize(gray(covered), small, size, 0.0, 0.0, cv::INTER_AREA);
-  }
-  return EncodeJpeg(small, kQuality);
-}
 
 FrameViewCollector::FrameViewCollector(int num_frames, const LensDistortion& distortion,
                                        const FrameViewLimits& limits)

@@ -9,16 +9,11 @@
 #include <string>
 #include <vector>
 
-#include <opencv2/core.hpp>
-
 #include "msc_vo/camera/lens_distortion.h"
 #include "msc_vo/odometry/tracking_observer.h"
 #include "msc_vo/report/frame_view.h"
 
 namespace msc_vo {
-
-/// The image, reduced to a width of at most 320 pixels, as a JPEG file. `gray`: CV_8UC1.
-std::string EncodeThumbnail(const cv::Mat& gray);
 
 /// Bounds on the views of a report.
 struct FrameViewLimits {

@@ -223,13 +223,14 @@ ReportMap FinalMap(const OdometryResult& result, const Rigid3& to_from_world) {
   return map;
 }
 
-// The views with indices of frames in place of their ids.
-std::vector<FrameView> IndexedViews(const std::vector<FrameResult>& frames,
-                                    std::vector<FrameView> views) {
+// Adds the views with indices of frames in place of their ids.
+void AddViews(const std::vector<FrameResult>& frames, const RunContext& context, ReportData* data) {
   std::map<int64_t, int> indices;
   for (size_t i = 0; i < frames.size(); ++i) indices[frames[i].id] = static_cast<int>(i);
-  for (FrameView& view : views) view.frame = indices.at(view.frame);
-  return views;
+  data->views = context.views;
+  for (FrameView& view : data->views) view.frame = indices.at(view.frame);
+  data->place = context.place;
+  if (data->place) data->place->frame = indices.at(data->place->frame);
 }
 
 std::string Row(const char* name, const std::string& text) {
@@ -352,7 +353,7 @@ std::string FormatReport(const OdometryResult& result, const RunSummary& summary
   if (summary.localization) data.found_frame = summary.localization->frame;
   data.map = FinalMap(result, ground_truth_from_world);
   data.map.sessions = EarlierSessions(result, ground_truth_from_world);
-  data.views = IndexedViews(result.frames, context.views);
+  AddViews(result.frames, context, &data);
   data.camera = context.calibration.camera;
   data.up_in_cam.y() = context.calibration.camera.fy < 0.0 ? 1.0 : -1.0;
   std::ostringstream page;

@@ -127,7 +127,8 @@ struct RunContext {
   std::vector<SegmentError> segment_errors;  ///< empty without ground truth or with one segment
   RunCost cost;
   std::optional<RealtimeSummary> realtime;  ///< nullopt unless the run was in real time
-  std::vector<FrameView> views;  ///< for the report, with the ids of frames; may be empty
+  std::vector<FrameView> views;    ///< for the report, with the ids of frames; may be empty
+  std::optional<PlaceView> place;  ///< for the report, with the id of the frame
 };
 
 /// Camera poses of all frames. Frames that are neither tracked nor weak are marked as not

@@ -3,8 +3,10 @@
 
 // Maps that outlive a run: replay --map and --localize, and the command map.
 
+#include <cmath>
 #include <csignal>
 #include <filesystem>
+#include <utility>
 
 #include "tests/apps/command_process.h"
 #include "tests/apps/rendered_sequence.h"
@@ -12,11 +14,17 @@
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <unistd.h>
 
+#include "msc_vo/datasets/sequence.h"
 #include "msc_vo/datasets/trajectory.h"
+#include "msc_vo/map_file/map_images.h"
 #include "msc_vo/map_file/map_reader.h"
+#include "msc_vo/report/base64.h"
 #include "msc_vo/text/files.h"
+#include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
 namespace {
@@ -62,6 +70,51 @@ class MapCommandTest : public PreparedFolder {
     }
     return largest;
   }
+  // The image of a frame of `sequence`.
+  cv::Mat FrameImage(const std::string& sequence, int64_t frame) const {
+    const SequenceIndex index = OpenSequence(Path(sequence));
+    return cv::imread(index.entries.at(frame).color_path, cv::IMREAD_GRAYSCALE);
+  }
+  // Whether an image of a map shows a frame of `sequence`.
+  bool ShowsFrame(const std::string& jpeg, int64_t frame,
+                  const std::string& sequence = "room") const {
+    constexpr double kGrayLevels = 12.0;  // root mean square, of JPEG; other keyframes differ by 40
+    const cv::Mat image =
+        cv::imdecode(std::vector<char>(jpeg.begin(), jpeg.end()), cv::IMREAD_UNCHANGED);
+    EXPECT_EQ(image.size(), cv::Size(160, 120));
+    cv::Mat small;
+    cv::resize(FrameImage(sequence, frame), small, image.size(), 0.0, 0.0, cv::INTER_AREA);
+    return cv::norm(image, small) / std::sqrt(image.total()) < kGrayLevels;
+  }
+  // Each keyframe has the image of its frame. The last session may be that of another sequence.
+  void ExpectImages(const std::string& file) const {
+    const MapContents contents = LoadMap(Path(file));
+    const MapImages images(Path(file));
+    for (const SavedSubMap& submap : contents.submaps) {
+      for (const auto& [id, keyframe] : submap.map.keyframes()) {
+        const bool is_last = id >= contents.sessions.back().first_keyframe;
+        const std::string& name =
+            contents.sessions[is_last ? contents.sessions.size() - 1 : 0].name;
+        EXPECT_TRUE(ShowsFrame(images.Read(id), keyframe.frame->id, name.substr(0, name.find(','))))
+            << id;
+      }
+    }
+  }
+  // The report shows a frame and a keyframe of home.map that show the same place.
+  void ExpectPlace(const std::string& report) const {
+    const std::string key = "\"place\":";
+    const size_t begin = report.find(key);
+    ASSERT_NE(begin, std::string::npos);
+    const std::string text = report.substr(begin + key.size());
+    const auto place = nlohmann::json::parse(text.substr(0, text.find('}') + 1));
+    const Map map = std::move(LoadMap(Path("home.map")).submaps.at(0).map);
+    const Keyframe* const keyframe = map.FindKeyframe(place["keyframe"]);
+    ASSERT_NE(keyframe, nullptr);
+    const std::string jpeg = MapImages(Path("home.map")).Read(place["keyframe"]);
+    EXPECT_EQ(place["keyframe_jpeg"], EncodeBase64(jpeg.data(), jpeg.size()));
+    // Both sessions are over the same images.
+    EXPECT_LT(std::abs(keyframe->frame->id - place["frame"].get<int64_t>()), 15);
+  }
   void ExpectMap(const std::string& file, size_t num_sessions) const {
     EXPECT_NO_THROW(CheckMap(Path(file)));
     EXPECT_EQ(SummarizeMap(Path(file)).sessions.size(), num_sessions);
@@ -74,8 +127,11 @@ TEST_F(MapCommandTest, CreatesAMapWithoutAnEffectOnTheRun) {
   EXPECT_FALSE(HasEntry(Path("home.map-journal")));
   const CommandOutcome info = RunCommand({"map", "info", Path("home.map")});
   EXPECT_EQ(info.exit_code, 0);
-  EXPECT_THAT(info.output, AllOf(LineNames("version", "3"), LineNames("session", "room"),
+  EXPECT_THAT(info.output, AllOf(LineNames("version", "4"), LineNames("session", "room"),
                                  LineNames("submap", "0", "keyframes", "points", "lines")));
+  const int64_t num_keyframes = SummarizeMap(Path("home.map")).sessions[0].num_keyframes;
+  EXPECT_THAT(info.output, HasSubstr("images of " + std::to_string(num_keyframes) + " of " +
+                                     std::to_string(num_keyframes) + " keyframes"));
   EXPECT_EQ(RunCommand({"map", "check", Path("home.map")}).exit_code, 0);
 }
 
@@ -94,6 +150,12 @@ TEST_F(MapCommandTest, ExportsFilesOfOtherPrograms) {
   ASSERT_EQ(keyframes.size(), map.keyframes().size());
   const std::string graph = ReadFile(Path(folder + "graph.g2o"));
   EXPECT_THAT(graph, AllOf(HasSubstr("VERTEX_SE3:QUAT 0 "), HasSubstr("EDGE_SE3:QUAT 0 ")));
+  int num_images = 0;
+  for (const auto& [id, keyframe] : map.keyframes()) {
+    const std::string path = Path(FormatText("export/images/%06d.jpg", static_cast<int>(id)));
+    num_images += ShowsFrame(ReadFile(path), keyframe.frame->id) ? 1 : 0;
+  }
+  EXPECT_EQ(num_images, static_cast<int>(map.keyframes().size()));
   EXPECT_EQ(RunCommand({"map", "export", Path("home.map")}).exit_code, 2);
   EXPECT_EQ(RunCommand({"map", "info", Path("home.map"), "--output", Path("x")}).exit_code, 2);
 }
@@ -111,6 +173,33 @@ TEST_F(MapCommandTest, ExtendsTheMapBySessionsThatFindThemselvesInIt) {
   ASSERT_EQ(summary.submaps.size(), 1u);
   EXPECT_GT(summary.sessions[1].num_keyframes, 0);
   EXPECT_LT(summary.submaps[0].num_points, 2 * num_first);
+  ExpectImages("home.map");
+}
+
+TEST_F(MapCommandTest, LeavesImagesOutOnRequest) {
+  const std::vector<std::string> option = {"--map", Path("blind.map"), "--no-map-images"};
+  ASSERT_EQ(Replay("room", "blind", option).exit_code, 0);
+  EXPECT_EQ(SummarizeMap(Path("blind.map")).num_images, 0);
+  EXPECT_LT(std::filesystem::file_size(Path("blind.map")),
+            std::filesystem::file_size(Path("home.map")));
+  ASSERT_EQ(RunCommand({"map", "export", Path("blind.map"), "--output", Path("export")}).exit_code,
+            0);
+  EXPECT_FALSE(HasEntry(Path("export/images")));
+  ASSERT_EQ(Replay("room", "today", {"--localize", Path("blind.map")}).exit_code, 0);
+  EXPECT_THAT(ReadFile(Path("today/report.html")),
+              AllOf(HasSubstr("\"found\":"), Not(HasSubstr("\"place\":"))));
+  // Those of earlier sessions stay.
+  const int64_t num_images = SummarizeMap(Path("home.map")).num_images;
+  ASSERT_EQ(Replay("room", "second", {"--map", Path("home.map"), "--no-map-images"}).exit_code, 0);
+  EXPECT_LE(SummarizeMap(Path("home.map")).num_images, num_images);
+  EXPECT_GT(SummarizeMap(Path("home.map")).num_images, 0);
+  EXPECT_EQ(Replay("room", "third", {"--no-map-images"}).exit_code, 2);
+}
+
+// In real time, the map is saved once, at the end.
+TEST_F(MapCommandTest, KeepsImagesOfARunInRealTime) {
+  ASSERT_EQ(Replay("room", "live", {"--map", Path("live.map"), "--realtime"}).exit_code, 0);
+  ExpectImages("live.map");
 }
 
 // Two runs of the same path that know nothing of each other, and one elsewhere.
@@ -126,6 +215,7 @@ TEST_F(MapCommandTest, MergesMapsByTheirPlaces) {
                                     LineNames("corridor.map", "no common place")));
   EXPECT_TRUE(ReadFile(Path("home.map")) == first);
   ExpectMap("all.map", 3);
+  ExpectImages("all.map");
   const MapFileSummary one = SummarizeMap(Path("home.map")), all = SummarizeMap(Path("all.map"));
   ASSERT_EQ(all.submaps.size(), 2u);
   // The map grows with what it shows, not with the visits.
@@ -163,6 +253,7 @@ TEST_F(MapCommandTest, LocalizesInAMapThatRemains) {
   EXPECT_GT(first, 0);
   EXPECT_LT(first, 40);
   const std::string report = ReadFile(Path("today/report.html"));
+  ExpectPlace(report);
   EXPECT_THAT(report, AllOf(HasSubstr("found in the map: frame " + std::to_string(first) + ","),
                             HasSubstr("earlier session: room, "),
                             HasSubstr("\"found\":" + std::to_string(first))));
@@ -248,6 +339,7 @@ TEST_F(MapCommandTest, KeepsTheMapOfAKilledRunAndResumes) {
   EXPECT_FALSE(LoadMap(Path("copy.map")).submaps.empty());
   const CommandOutcome resumed = RunCommand({"replay", "--resume", Path("out"), "--quiet"});
   ASSERT_EQ(resumed.exit_code, 0) << resumed.output;
+  ExpectImages("new.map");
   ASSERT_EQ(Replay("room", "second", {"--map", Path("new.map")}).exit_code, 0);
   ExpectMap("new.map", 2);
   EXPECT_EQ(ReadFile(Path("out/trajectory.txt")), ReadFile(Path("first/trajectory.txt")));

@@ -115,6 +115,7 @@ class LivePageTest(unittest.TestCase):
         self.browser.driver.get(url)
         self.browser.wait_for(lambda: self.count() > 0, what="a frame")
         self.assertFalse(self.browser.find("#scene-label").is_displayed())
+        self.assertFalse(self.browser.find("#place").is_displayed())
         self.browser.script("""
             const speed = document.getElementById("live-speed");
             speed.value = "0.25"; speed.dispatchEvent(new Event("change"));""")
@@ -123,6 +124,7 @@ class LivePageTest(unittest.TestCase):
                               what="the place in the map")
         self.assertEqual(self.browser.text("#scene-legend").splitlines(),
                          ["trajectory", "earlier sessions"])
+        self.assertRegex(self.browser.text("#place"), r"(?s)frame \d+.*keyframe \d+")
         self.control(url, "speed&value=0")
         self.browser.wait_for(lambda: "APE RMSE" in self.browser.text("body"), what="the report")
         self.assertEqual(self.run.wait(timeout=20), 0)

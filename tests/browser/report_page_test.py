@@ -170,10 +170,18 @@ class ReportPageTest(unittest.TestCase):
             data["map"]["sessions"] = [{"name": "yesterday <b>", "positions": positions},
                                        {"name": "", "positions": positions}]
             data["found"] = 5
+            jpegs = [view["jpeg"] for view in data["views"][:2]]
+            data["place"] = {"frame": 5, "jpeg": jpegs[0], "keyframe": 17, "keyframe_jpeg": jpegs[1]}
 
+        self.assertFalse(self.browser.find("#place").is_displayed())
         self.open_changed(find)
         self.assertEqual(self.legend(), ["trajectory", "earlier session: yesterday <b>",
                                          "earlier sessions"])
+        self.assertRegex(self.browser.text("#place"), r"(?s)frame 5\b.*keyframe 17\b")
+        for i in (1, 2):
+            self.assertGreater(int(self.browser.script(
+                f"return document.querySelector('#place figure:nth-child({i}) img').naturalWidth")),
+                100)
         label = self.browser.find("#scene-label")
         self.assertTrue(label.is_displayed())
         self.assertRegex(label.text, r"^found in the map: frame 5, \d\.\d\d s$")

@@ -26,7 +26,7 @@ namespace {
 
 constexpr const char* kTables[] = {
     "map",   "session", "calibration", "submap",         "keyframe",    "features", "features",
-    "point", "line",    "plane",       "plane_features", "false_depth", "loop"};
+    "point", "line",    "plane",       "plane_features", "false_depth", "image",    "loop"};
 
 // The folder and the bytes of a valid file.
 struct Files {
@@ -38,7 +38,8 @@ struct Files {
     Map second = random.Make(2, contents.submaps[0].map);
     contents.sessions.push_back({3, "second"});
     contents.submaps.push_back({1, std::move(second), {}, {}});
-    SaveMap(path, std::move(contents));
+    SaveMap(path, std::move(contents),
+            [](KeyframeId id) { return "\xff\xd8\xff" + std::string(40, static_cast<char>(id)); });
     std::ifstream file(path, std::ios::binary);
     valid.assign(std::istreambuf_iterator<char>(file), {});
   }
@@ -180,6 +181,11 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
       Require(FirstViolation(submap.map).empty(), "a map without violations");
     }
     SummarizeMap(files.path);
+    const MapImages images(files.path);
+    for (const KeyframeId id : images.Keyframes()) {
+      Require(FindKeyframe(contents, id) != nullptr, "an image of a keyframe");
+      Require(!images.Read(id).empty(), "an image");
+    }
     std::filesystem::remove(files.folder.Path("copy.map"));
     SaveMap(files.folder.Path("copy.map"), std::move(contents));
     LoadMap(files.folder.Path("copy.map"));

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <limits>
 #include <memory>
+#include <tuple>
 
 #include "tests/map_file/random_map.h"
 #include "tests/support/message_matchers.h"
@@ -13,6 +14,8 @@
 #include <gmock/gmock.h>
 #include <sqlite3.h>
 
+#include "msc_vo/map_file/internal/row.h"
+#include "msc_vo/map_file/internal/sqlite_database.h"
 #include "msc_vo/map_file/map_reader.h"
 #include "msc_vo/map_file/map_writer.h"
 
@@ -27,7 +30,9 @@ class MapFileDamageTest : public TemporaryFolder {
   void SetUp() override {
     TemporaryFolder::SetUp();
     path_ = Path("home.map");
-    SaveMap(path_, AsContents(random_.Make(4)));
+    SaveMap(path_, AsContents(random_.Make(4)), [](KeyframeId id) {
+      return id < 3 ? "\xff\xd8\xff" + std::string(500, static_cast<char>(id)) : "";
+    });
   }
 
   // Changes the file by SQL, as another program would.
@@ -83,9 +88,9 @@ TEST_F(MapFileDamageTest, WritesIntoEmptyFileAndSaysThatItIsEmpty) {
 }
 
 TEST_F(MapFileDamageTest, RefusesNewerVersion) {
-  Change("PRAGMA user_version = 4");
-  EXPECT_THAT(Problem(), Names(path_, "version 4", "newer msc_vo"));
-  EXPECT_THAT(MessageOf([&] { MapWriter writer(path_); }), Names(path_, "version 4"));
+  Change("PRAGMA user_version = 5");
+  EXPECT_THAT(Problem(), Names(path_, "version 5", "newer msc_vo"));
+  EXPECT_THAT(MessageOf([&] { MapWriter writer(path_); }), Names(path_, "version 5"));
 }
 
 TEST_F(MapFileDamageTest, RefusesOtherTables) {
@@ -127,7 +132,11 @@ TEST_F(MapFileDamageTest, RefusesRowsThatDoNotFit) {
                           "UPDATE false_depth SET landmark = 100000 WHERE landmark = (SELECT "
                           "min(landmark) FROM false_depth)",
                           "UPDATE false_depth SET checksum = checksum + 1",
-                          "INSERT INTO false_depth VALUES (-1, 0)"}) {
+                          "INSERT INTO false_depth VALUES (-1, 0)",
+                          "UPDATE image SET checksum = checksum + 1",
+                          "UPDATE image SET keyframe = 3 WHERE keyframe = 2",
+                          "UPDATE image SET jpeg = substr(jpeg, 1, 100) WHERE keyframe = 1",
+                          "UPDATE image SET jpeg = 'text' WHERE keyframe = 1"}) {
     Write(valid);
     Change(sql);
     EXPECT_THAT(Problem(), Names(path_, "damaged")) << sql;
@@ -135,6 +144,30 @@ TEST_F(MapFileDamageTest, RefusesRowsThatDoNotFit) {
   }
   Write(valid);
   EXPECT_THAT(Problem(), IsEmpty());
+}
+
+// A row with a checksum that fits, of a keyframe that does not exist or that is no JPEG file.
+TEST_F(MapFileDamageTest, RefusesImagesThatDoNotFit) {
+  const std::string valid = Read();
+  for (const auto& [keyframe, jpeg, reason] :
+       {std::tuple(9, "\xff\xd8\xff", "keyframe"), std::tuple(3, "\xff\xd8", "JPEG")}) {
+    Write(valid);
+    {
+      const SqliteDatabase database(path_, SqliteDatabase::Access::kWrite);
+      SqliteStatement insert = PrepareUpsert(database, "image", 3);
+      RowWriter(&insert).Integer(keyframe).Blob(jpeg).Execute();
+    }
+    EXPECT_THAT(Problem(), Names(path_, "damaged", "table image", reason));
+  }
+}
+
+// The map that replaces a damaged one has no damage.
+TEST_F(MapFileDamageTest, DropsDamagedImagesOfAMapThatIsReplaced) {
+  MapContents contents = LoadMap(path_);
+  Change("UPDATE image SET jpeg = substr(jpeg, 1, 100) WHERE keyframe = 1");
+  SaveMap(path_, std::move(contents));
+  EXPECT_THAT(Problem(), IsEmpty());
+  EXPECT_THAT(MapImages(path_).Keyframes(), testing::ElementsAre(0, 2));
 }
 
 // Changes and the reasons why they are refused.

@@ -8,6 +8,7 @@
 
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
+#include <opencv2/imgcodecs.hpp>
 
 #include "msc_vo/map_file/map_reader.h"
 #include "msc_vo/map_file/map_writer.h"
@@ -27,6 +28,7 @@ class MapVersionsTest : public TemporaryFolder {
     const std::string path = Copy("version_" + std::to_string(version) + ".map");
     EXPECT_NO_THROW(CheckMap(path));
     EXPECT_EQ(SummarizeMap(path).version, version);
+    EXPECT_EQ(MapImages(path).Keyframes().empty(), version < 4);
     MapContents contents = LoadMap(path);
     EXPECT_EQ(contents.submaps.size(), 1u);
     return contents;
@@ -99,18 +101,38 @@ TEST_F(MapVersionsTest, ReadsTheFalseDepthsOfVersion3) {
   EXPECT_THAT(false_depths, testing::UnorderedElementsAre(125, 376));
 }
 
+TEST_F(MapVersionsTest, ReadsTheImagesOfVersion4) {
+  const MapContents contents = Load(4);
+  const MapImages images(Path("version_4.map"));
+  std::vector<KeyframeId> keyframes;
+  for (const auto& [id, keyframe] : contents.submaps.at(0).map.keyframes()) {
+    keyframes.push_back(id);
+    const std::string jpeg = images.Read(id);
+    const cv::Mat image =
+        cv::imdecode(std::vector<char>(jpeg.begin(), jpeg.end()), cv::IMREAD_UNCHANGED);
+    EXPECT_EQ(image.size(), cv::Size(160, 120)) << id;
+  }
+  EXPECT_THAT(keyframes, testing::SizeIs(8));
+  EXPECT_EQ(images.Keyframes(), keyframes);
+}
+
 TEST_F(MapVersionsTest, ExtendsVersion1) {
   const std::string path = Copy("version_1.map");
   MapWriter writer(path);
   MapContents contents = writer.Load();
   contents.sessions.push_back({contents.submaps[0].map.next_keyframe(), "third"});
-  writer.Write(std::move(contents));
+  Map& map = contents.submaps[0].map;
+  const KeyframeId own = map.AddKeyframe(map.FindKeyframe(0)->frame, map.CamFromWorld(0));
+  const std::string jpeg = "\xff\xd8\xff image";
+  writer.Write(std::move(contents), [&](KeyframeId id) { return id == own ? jpeg : ""; });
   std::filesystem::copy_file(path, Path("copy.map"));
   const MapContents extended = LoadMap(Path("copy.map"));
   EXPECT_EQ(extended.sessions.size(), 3u);
   EXPECT_NEAR(extended.submaps[0].noise_scale.line_pixel, 0.77900126102768, 1e-12);
   EXPECT_EQ(extended.submaps[0].map.points().size(), 283u);
-  EXPECT_EQ(SummarizeMap(Path("copy.map")).version, 3);
+  EXPECT_EQ(SummarizeMap(Path("copy.map")).version, 4);
+  EXPECT_THAT(MapImages(Path("copy.map")).Keyframes(), testing::ElementsAre(own));
+  EXPECT_EQ(MapImages(Path("copy.map")).Read(own), jpeg);
 }
 
 }  // namespace

@@ -75,7 +75,14 @@ class Session(unittest.TestCase):
             first.process(image.timestamp, image.gray, image.depth)
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "home.map")
-            first.save_map(path, session="first")
+            first_id, other_id = first.map().window.keyframe_ids[:2].tolist()
+            jpeg = b"\xff\xd8\xff of a camera"
+            first.save_map(path, session="first", images={first_id: jpeg, 10**9: b"of no keyframe"})
+            self.assertEqual(msc_vo.map_images(path), {first_id: jpeg})
+            with self.assertRaisesRegex(ValueError, "JPEG"):
+                first.save_map(path, session="first", images={first_id: b"no picture"})
+            with self.assertRaisesRegex(RuntimeError, "none.map"):
+                msc_vo.map_images(pathlib.Path(folder, "none.map"))
             second = msc_vo.Odometry(options, sequence.camera, sequence.lens)
             with self.assertRaisesRegex(RuntimeError, "none.map"):
                 second.load_map(pathlib.Path(folder, "none.map"))
@@ -84,7 +91,12 @@ class Session(unittest.TestCase):
                 second.process(image.timestamp, image.gray, image.depth)
             with self.assertRaisesRegex(ValueError, "first image"):
                 second.load_map(path)
-            second.save_map(path)
+            second.save_map(path, images={other_id: jpeg + b" later"})
+            kept = second.map().window.keyframe_ids
+            expected = {first_id: jpeg, other_id: jpeg + b" later"}
+            self.assertEqual(msc_vo.map_images(path),
+                             {id: jpeg for id, jpeg in expected.items() if id in kept})
+            self.assertIn(first_id, kept)
             third = msc_vo.Localizer(options, sequence.camera, path, distortion=sequence.lens)
             images = list(sequence)
             status = [third.process(image.timestamp, image.gray, image.depth).status

@@ -112,14 +112,19 @@ TEST(RunJson, ListsLoopsBetweenFramesOfTheRun) {
 TEST(RunJson, StoresThePathBeforeLoopsAndThoseOfEarlierSessions) {
   ReportData data = MakeFakeRun(3);
   const json plain = json::parse(FormatRunJson(data));
-  for (const char* key : {"odometry", "found"}) EXPECT_FALSE(plain.contains(key)) << key;
+  for (const char* key : {"odometry", "found", "place"}) EXPECT_FALSE(plain.contains(key)) << key;
   EXPECT_FALSE(plain["map"].contains("sessions"));
   data.odometry = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}};
   data.found_frame = 2;
+  data.place = {2, "\xff\xd8 run", 7, "\xff\xd8 map"};
   data.map.sessions = {{"monday", {{1, 0, 0}}}, {"tuesday", {{0, 1, 0}, {0, 2, 0}}}};
   const json run = json::parse(FormatRunJson(data));
   EXPECT_EQ(run["odometry"], EncodeBase64(std::vector<float>{1, 2, 3, 4, 5, 6, 7, 8, 9}));
   EXPECT_EQ(run["found"], 2);
+  EXPECT_EQ(run["place"], json({{"frame", 2},
+                                {"jpeg", EncodeBase64("\xff\xd8 run", 6)},
+                                {"keyframe", 7},
+                                {"keyframe_jpeg", EncodeBase64("\xff\xd8 map", 6)}}));
   EXPECT_EQ(run["map"]["sessions"][0]["name"], "monday");
   EXPECT_EQ(run["map"]["sessions"][1]["positions"],
             EncodeBase64(std::vector<float>{0, 1, 0, 0, 2, 0}));
@@ -146,7 +151,7 @@ TEST(RunJson, UpdatesHoldOnlyWhatIsNew) {
   const json nothing = json::parse(FormatRunUpdate(update));
   EXPECT_EQ(nothing["state"], "running");
   EXPECT_EQ(nothing["map_version"], 4);
-  for (const char* key : {"frames", "map", "views", "moved", "loops", "found"}) {
+  for (const char* key : {"frames", "map", "views", "moved", "loops", "found", "place"}) {
     EXPECT_FALSE(nothing.contains(key)) << key;
   }
 
@@ -162,11 +167,13 @@ TEST(RunJson, UpdatesHoldOnlyWhatIsNew) {
   update.moved_frames[0].world_from_cam = Rigid3();
   update.loops = {{4, 0}, {5, 0}};
   update.found_frame = 1;
+  update.place = {1, "run", 7, "map"};
   const json all = json::parse(FormatRunUpdate(update));
   EXPECT_EQ(all["moved"]["pose"], EncodeBase64(std::vector<float>{0, 0, 0, 0, 0, 0, 1}));
   EXPECT_EQ(all["moved"]["submap"], EncodeBase64(std::vector<uint16_t>{0}));
   EXPECT_EQ(all["loops"], json::parse("[[4, 0]]"));
   EXPECT_EQ(all["found"], 1);
+  EXPECT_EQ(all["place"]["keyframe_jpeg"], EncodeBase64("map", 3));
   EXPECT_EQ(all["frames"]["first"], 3);
   EXPECT_EQ(all["frames"]["time"], EncodeBase64(std::vector<float>{3 / 30.0F, 4 / 30.0F}));
   EXPECT_EQ(all["map"]["line_axes"].get<std::string>().size(), 32u);  // 24 bytes

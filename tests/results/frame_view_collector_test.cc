@@ -5,7 +5,6 @@
 
 #include "tests/support/tracked_scene.h"
 #include <gmock/gmock.h>
-#include <opencv2/imgcodecs.hpp>
 
 namespace msc_vo {
 namespace {
@@ -36,25 +35,6 @@ size_t BytesOfOne() {
   FrameViewCollector collector(1, {}, {});
   collector.Add(scene.View());
   return NumBytes(collector.Take().at(0));
-}
-
-TEST(EncodeThumbnail, ReducesTheImage) {
-  const std::string jpeg = EncodeThumbnail(cv::Mat(480, 640, CV_8UC1, cv::Scalar(90)));
-  const cv::Mat image =
-      cv::imdecode(std::vector<char>(jpeg.begin(), jpeg.end()), cv::IMREAD_UNCHANGED);
-  EXPECT_EQ(image.size(), cv::Size(320, 240));
-  EXPECT_EQ(image.type(), CV_8UC1);
-  EXPECT_NEAR(image.at<uchar>(100, 100), 90, 2);
-}
-
-TEST(EncodeThumbnail, HandlesSmallAndOddImages) {
-  for (const cv::Size size : {cv::Size(160, 120), cv::Size(641, 479), cv::Size(1200, 680)}) {
-    const std::string jpeg = EncodeThumbnail(cv::Mat(size, CV_8UC1, cv::Scalar(90)));
-    const cv::Mat image =
-        cv::imdecode(std::vector<char>(jpeg.begin(), jpeg.end()), cv::IMREAD_UNCHANGED);
-    EXPECT_LE(image.cols, 320);
-    EXPECT_NEAR(image.cols * size.height, image.rows * size.width, 3 * size.width);
-  }
 }
 
 TEST(FrameViewCollector, KeepsAllFramesOfAShortRun) {

@@ -65,6 +65,9 @@ constexpr struct {
      "observations BLOB NOT NULL, checksum INTEGER NOT NULL)"},
     {"false_depth", 3, kMapFileVersion,
      "CREATE TABLE false_depth (landmark INTEGER PRIMARY KEY, checksum INTEGER NOT NULL)"},
+    {"image", 4, kMapFileVersion,
+     "CREATE TABLE image (keyframe INTEGER PRIMARY KEY, jpeg BLOB NOT NULL, checksum INTEGER NOT "
+     "NULL)"},
     {"loop", 1, kMapFileVersion,
      "CREATE TABLE loop (id INTEGER PRIMARY KEY, from_keyframe INTEGER NOT NULL, to_keyframe "
      "INTEGER NOT NULL, qx REAL NOT NULL, qy REAL NOT NULL, qz REAL NOT NULL, qw REAL NOT NULL, tx "

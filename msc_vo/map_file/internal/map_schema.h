@@ -10,11 +10,13 @@
 namespace msc_vo {
 
 /// Version of the tables, docs/map_file.md.
-constexpr int kMapFileVersion = 3;
+constexpr int kMapFileVersion = 4;
 /// The first version with the tables of planes.
 constexpr int kFirstVersionWithPlanes = 2;
 /// The first version with the table of landmarks whose depth is false.
 constexpr int kFirstVersionWithFalseDepths = 3;
+/// The first version with the table of images.
+constexpr int kFirstVersionWithImages = 4;
 
 /// Largest ids of keyframes and landmarks, because the memory of some algorithms grows with them: a
 /// year of keyframes, and a hundred landmarks for each.

@@ -14,6 +14,7 @@
 #include "msc_vo/map/map_validation.h"
 #include "msc_vo/map_file/internal/blob.h"
 #include "msc_vo/map_file/internal/feature_blob.h"
+#include "msc_vo/map_file/internal/image_rows.h"
 #include "msc_vo/map_file/internal/map_schema.h"
 #include "msc_vo/map_file/internal/plane_rows.h"
 #include "msc_vo/map_file/internal/row.h"
@@ -65,6 +66,7 @@ class TableReader {
     ForEachLandmarkKind([&](auto kind) { ReadLandmarks<typename decltype(kind)::Landmark>(); });
     if (!false_depths_.empty()) Fail("a false depth is that of a landmark that does not exist");
     ReadLoops();
+    CheckImages(database_, contents_);
     for (SavedSubMap& submap : contents_.submaps) {
       submap.map.ContinueIds(next_keyframe_, next_landmark_);
       const std::string violation = FirstViolation(submap.map);

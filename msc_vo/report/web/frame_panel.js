@@ -30,6 +30,7 @@ class FramePanel {
     this.model = model;
     this.canvas = elements.canvas;
     this.missing = elements.missing;
+    this.place = elements.place;
     this.facts = elements.facts;
     this.stages = elements.stages;
     this.picture = new Image();
@@ -45,6 +46,7 @@ class FramePanel {
   update() {
     if (this.model.count === 0) return;
     this.updatePicture();
+    this.updatePlace();
     this.updateFacts();
     this.updateStages();
   }
@@ -58,6 +60,22 @@ class FramePanel {
     this.missing.textContent = `image of frame ${view.frame}`;
     if (this.picture.src === view.url) this.drawPicture();
     else this.picture.src = view.url;
+  }
+
+  // The place where the run was found, as the run and the map show it.
+  updatePlace() {
+    const place = this.model.place;
+    this.place.hidden = !place;
+    if (!place) return;
+    const sides = [
+      [place.jpeg, `frame ${place.frame} of the run`],
+      [place.keyframe_jpeg, `keyframe ${place.keyframe} of the map`],
+    ];
+    this.place.querySelectorAll("figure").forEach((figure, i) => {
+      const url = jpegUrl(sides[i][0]), image = figure.querySelector("img");
+      if (image.src !== url) image.src = url;
+      figure.querySelector("figcaption").textContent = sides[i][1];
+    });
   }
 
   drawPicture() {

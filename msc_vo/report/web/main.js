@@ -112,6 +112,7 @@ function startPage() {
   new FramePanel(model, {
     canvas: byId("frame-canvas"),
     missing: byId("frame-missing"),
+    place: byId("place"),
     facts: byId("frame-facts"),
     stages: byId("frame-stages")
   });

@@ -35,6 +35,10 @@ function decodeSurface(surface) {
   };
 }
 
+function jpegUrl(base64) {
+  return "data:image/jpeg;base64," + base64;
+}
+
 // The keyframes of an earlier run. `name` may be empty.
 function decodeSession({name, positions}) {
   return {name, positions: decodeArray(Float32Array, positions)};
@@ -88,10 +92,12 @@ class RunModel extends EventTarget {
     this.count = this.columns.status.length;
   }
 
-  // Loops as pairs of frames, and the first frame that was found in the map of earlier runs or -1.
-  setPlaces({loops, found}) {
+  // Loops as pairs of frames, the first frame that was found in the map of earlier runs or -1, and
+  // the images of that place or null.
+  setPlaces({loops, found, place}) {
     this.loops = loops || [];
     this.found = found === undefined ? -1 : found;
+    this.place = place || null;
   }
 
   // Other poses of the first frames.
@@ -136,7 +142,7 @@ class RunModel extends EventTarget {
     for (const view of views || []) {
       const decoded = {
         frame: view.frame,
-        url: "data:image/jpeg;base64," + view.jpeg,
+        url: jpegUrl(view.jpeg),
         points: decodeArray(Uint16Array, view.points),
         pointDepth: decodeArray(Uint8Array, view.point_depth),
         lines: decodeArray(Uint16Array, view.lines),

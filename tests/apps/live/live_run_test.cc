@@ -133,11 +133,15 @@ TEST_F(LiveRunTest, MovesItsFramesIntoTheMapOfAnEarlierRun) {
   ProcessAfterMapping(0.0);
   json update = Update(0);
   EXPECT_FALSE(update.contains("found"));
+  EXPECT_FALSE(update.contains("place"));
   EXPECT_EQ(update["frames"]["submap"], EncodeBase64(std::vector<uint16_t>{1}));
   scene_.result.world = scene_.map.world = 0;
   scene_.map.map.BeginSession();
+  run_.ShowPlace({1, "run", 7, "map"});
   ProcessAfterMapping(3.0);
   update = Update(1, 0);
+  EXPECT_EQ(update["place"]["keyframe"], 7);
+  EXPECT_FALSE(Update(1, 1).contains("place"));  // the viewer has it with the map
   EXPECT_EQ(update["moved"]["pose"], PosesAt(3.0, 1));
   EXPECT_EQ(update["moved"]["submap"], EncodeBase64(std::vector<uint16_t>{0}));
   EXPECT_EQ(update["map"]["sessions"].size(), 1u);

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/map_file/internal/image_rows.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <string_view>
+
+#include "msc_vo/map_file/internal/map_schema.h"
+#include "msc_vo/map_file/internal/row.h"
+#include "msc_vo/map_file/map_images.h"
+
+namespace msc_vo {
+
+namespace {
+
+constexpr char kTable[] = "image";
+
+bool IsJpeg(std::string_view bytes) {
+  constexpr std::string_view kBegin = "\xff\xd8\xff";
+  return bytes.size() <= kMaxMapImageBytes && bytes.substr(0, kBegin.size()) == kBegin;
+}
+
+bool HasImages(const SqliteDatabase& database) {
+  return SchemaVersion(database) >= kFirstVersionWithImages;
+}
+
+// A row of the table.
+struct Image {
+  KeyframeId keyframe = kNoId;
+  std::string_view jpeg;  // valid until the next step
+};
+
+Image ReadRow(const SqliteStatement& rows, const std::string& path) {
+  RowReader row(rows, path, kTable);
+  Image image;
+  image.keyframe = row.Integer();
+  image.jpeg = row.Blob();
+  row.Finish();
+  if (!IsJpeg(image.jpeg)) row.Fail("it is no JPEG file of at most 64 KB");
+  return image;
+}
+
+// Keyframes with smaller ids belong to sessions that are the same in the file and in `sessions`.
+KeyframeId EndOfCommonSessions(const SqliteDatabase& database,
+                               const std::vector<MapSession>& sessions) {
+  SqliteStatement rows = database.Prepare("SELECT first_keyframe, name FROM session ORDER BY id");
+  for (const MapSession& session : sessions) {
+    if (!rows.Step()) return session.first_keyframe;
+    const KeyframeId first = rows.Integer(0);
+    if (first != session.first_keyframe || rows.Bytes(1) != session.name) {
+      return std::min(first, session.first_keyframe);
+    }
+  }
+  return rows.Step() ? rows.Integer(0) : std::numeric_limits<KeyframeId>::max();
+}
+
+bool IsUndamaged(const SqliteDatabase& database, KeyframeId id) {
+  try {
+    return !ReadImage(database, id).empty();
+  } catch (const std::runtime_error&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+void WriteImage(KeyframeId id, const std::string& jpeg, SqliteStatement* upsert) {
+  if (!IsJpeg(jpeg)) {
+    throw std::invalid_argument("map file: the image of keyframe " + std::to_string(id) +
+                                " must be a JPEG file of at most 64 KB");
+  }
+  RowWriter(upsert).Integer(id).Blob(jpeg).Execute();
+}
+
+std::vector<KeyframeId> ListImages(const SqliteDatabase& database) {
+  std::vector<KeyframeId> ids;
+  if (!HasImages(database)) return ids;
+  SqliteStatement rows = database.Prepare("SELECT keyframe FROM image ORDER BY keyframe");
+  while (rows.Step()) ids.push_back(rows.Integer(0));
+  return ids;
+}
+
+std::string ReadImage(const SqliteDatabase& database, KeyframeId id) {
+  if (!HasImages(database)) return "";
+  SqliteStatement rows = database.Prepare("SELECT * FROM image WHERE keyframe = ?");
+  rows.Bind(0, id);
+  return rows.Step() ? std::string(ReadRow(rows, database.path()).jpeg) : "";
+}
+
+void CheckImages(const SqliteDatabase& database, const MapContents& contents) {
+  if (!HasImages(database)) return;
+  SqliteStatement rows = database.Prepare("SELECT * FROM image");
+  while (rows.Step()) {
+    const Image image = ReadRow(rows, database.path());
+    if (FindKeyframe(contents, image.keyframe) == nullptr) {
+      RowReader(rows, database.path(), kTable).Fail("its keyframe does not exist");
+    }
+  }
+}
+
+void EraseOtherImages(const SqliteDatabase& database, const MapContents& contents) {
+  const KeyframeId end = EndOfCommonSessions(database, contents.sessions);
+  SqliteStatement rows = database.Prepare(
+      "SELECT image.keyframe, frame, timestamp FROM image LEFT JOIN features ON features.keyframe "
+      "= image.keyframe");
+  std::vector<KeyframeId> others;
+  while (rows.Step()) {
+    const KeyframeId id = rows.Integer(0);
+    const Keyframe* const keyframe = FindKeyframe(contents, id);
+    const bool is_same = keyframe != nullptr && id < end &&
+                         keyframe->frame->id == rows.Integer(1) &&
+                         keyframe->frame->timestamp == rows.Real(2) && IsUndamaged(database, id);
+    if (!is_same) others.push_back(id);
+  }
+  SqliteStatement erase = database.Prepare("DELETE FROM image WHERE keyframe = ?");
+  for (const KeyframeId id : others) {
+    erase.Bind(0, id);
+    erase.Step();
+  }
+}
+
+}  // namespace msc_vo
