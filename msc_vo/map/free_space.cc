@@ -45,24 +45,6 @@ double DepthRatio(const Frame& frame, const Eigen::Vector3d& point) {
 bool IsFree(double ratio) { return ratio > 1.0 + DepthRanges::kTolerance; }
 bool IsSurface(double ratio) { return std::abs(ratio - 1.0) <= DepthRanges::kTolerance; }
 
-// Of the cells of `a`.
-SurfaceAgreement CompareCells(const Frame& a, const Frame& b, const Rigid3& b_from_a) {
-  SurfaceAgreement agreement;
-  for (int row = 0; row < DepthRanges::kRows; ++row) {
-    for (int column = 0; column < DepthRanges::kColumns; ++column) {
-      const DepthRanges::Cell& cell = a.depth_ranges.At(column, row);
-      if (!cell.HasDepth()) continue;
-      const Eigen::Vector2d pixel = DepthRanges::CellCenter(a.camera, column, row);
-      const Eigen::Vector3d surface =
-          b_from_a * a.camera.BackProject(pixel, 1.0 / cell.min_inverse_depth);
-      const double ratio = DepthRatio(b, surface);
-      if (IsFree(ratio)) ++agreement.num_contradictions;
-      if (IsSurface(ratio)) ++agreement.num_same;
-    }
-  }
-  return agreement;
-}
-
 }  // namespace
 
 bool IsInFreeSpace(const Frame& frame, const Eigen::Vector3d& point) {
@@ -74,16 +56,26 @@ bool ShowsSurface(const Frame& frame, const Eigen::Vector3d& point) {
 }
 
 SurfaceAgreement CompareSurfaces(const Frame& a, const Frame& b, const Rigid3& b_from_a) {
-  if (a.depth_ranges.cells.empty() || b.depth_ranges.cells.empty()) return {};
-  const SurfaceAgreement of_a = CompareCells(a, b, b_from_a);
-  const SurfaceAgreement of_b = CompareCells(b, a, b_from_a.Inverse());
-  return {of_a.num_same + of_b.num_same, of_a.num_contradictions + of_b.num_contradictions};
+  SurfaceAgreement agreement;
+  if (a.depth_ranges.cells.empty() || b.depth_ranges.cells.empty()) return agreement;
+  for (int row = 0; row < DepthRanges::kRows; ++row) {
+    for (int column = 0; column < DepthRanges::kColumns; ++column) {
+      const DepthRanges::Cell& cell = a.depth_ranges.At(column, row);
+      if (!cell.HasDepth()) continue;
+      const Eigen::Vector2d pixel = DepthRanges::CellCenter(a.camera, column, row);
+      const Eigen::Vector3d surface =
+          b_from_a * a.camera.BackProject(pixel, 1.0 / cell.min_inverse_depth);
+      const double ratio = DepthRatio(b, surface);
+      if (IsFree(ratio)) ++agreement.num_violations;
+      if (IsSurface(ratio)) ++agreement.num_same;
+    }
+  }
+  return agreement;
 }
 
 int NumFreeSpaceViolations(const Frame& a, const Frame& b, const Rigid3& b_from_a) {
-  if (a.depth_ranges.cells.empty() || b.depth_ranges.cells.empty()) return 0;
-  return std::max(CompareCells(a, b, b_from_a).num_contradictions,
-                  CompareCells(b, a, b_from_a.Inverse()).num_contradictions);
+  return std::max(CompareSurfaces(a, b, b_from_a).num_violations,
+                  CompareSurfaces(b, a, b_from_a.Inverse()).num_violations);
 }
 
 }  // namespace msc_vo

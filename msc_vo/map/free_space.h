@@ -16,18 +16,18 @@ bool IsInFreeSpace(const Frame& frame, const Eigen::Vector3d& point);
 /// shows around its pixel is at that depth, to 5 %.
 bool ShowsSurface(const Frame& frame, const Eigen::Vector3d& point);
 
-/// How the surfaces of two frames agree: cells of the depth ranges of either frame.
+/// How the surfaces of one frame agree with those of another: cells of its depth ranges.
 struct SurfaceAgreement {
-  int num_same = 0;            ///< whose surface the other frame shows
-  int num_contradictions = 0;  ///< whose surface lies in the free space of the other frame
+  int num_same = 0;        ///< whose surface the other frame shows
+  int num_violations = 0;  ///< whose surface lies in the free space of the other frame
 };
 
-/// Compares the surfaces of two frames. Occluded ones are not counted, and none if the depth ranges
-/// of a frame are unknown. In a static scene and at the correct pose, contradictions come only from
-/// depth errors.
+/// Compares the surfaces of frame `a` with those of `b`. Occluded ones are not counted, and none if
+/// the depth ranges of a frame are unknown. In a static scene and at the correct pose, violations
+/// come only from depth errors.
 SurfaceAgreement CompareSurfaces(const Frame& a, const Frame& b, const Rigid3& b_from_a);
 
-/// The contradictions of CompareSurfaces() in that direction that has more of them.
+/// The violations in that direction, of the two, that has more of them.
 int NumFreeSpaceViolations(const Frame& a, const Frame& b, const Rigid3& b_from_a);
 
 }  // namespace msc_vo

@@ -129,9 +129,9 @@ bool ContradictsSurfaces(const TrackedFrame& tracked, const Map& own, const Revi
     const SurfaceAgreement agreement = CompareSurfaces(
         *nearest.frame, *view.frame, view.cam_from_world * nearest.cam_from_world.Inverse());
     sum.num_same += agreement.num_same;
-    sum.num_contradictions += agreement.num_contradictions;
+    sum.num_violations += agreement.num_violations;
   }
-  return sum.num_contradictions > kMaxRatio * (sum.num_same + sum.num_contradictions);
+  return sum.num_violations > kMaxRatio * (sum.num_same + sum.num_violations);
 }
 
 }  // namespace msc_vo

@@ -16,9 +16,10 @@ bool ShowsOnePlane(const Revisit& found, const Map& map, int min_matches);
 
 /// Whether surfaces contradict that a frame shows the place in `map` at which it was `found`,
 /// although landmarks match: pictures and furniture made in series stand in rooms that differ. The
-/// frame and the keyframes around its reference in `own`, the map that it is tracked in, are
-/// compared with the keyframes around the place, each with the most similar view; the place is
-/// contradicted by more than 1 % of the cells that can be compared (CompareSurfaces).
+/// keyframes around the place are compared with the frame and the keyframes around its reference in
+/// `own`, the map that it is tracked in, each of these with the most similar view. The place is
+/// contradicted if the camera looks through more than 1 % of the surfaces that the map has there.
+/// What the map lacks does not count: a person may stand there.
 bool ContradictsSurfaces(const TrackedFrame& tracked, const Map& own, const Revisit& found,
                          const Map& map);
 

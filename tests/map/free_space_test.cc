@@ -45,6 +45,25 @@ TEST(FreeSpace, IsUnknownOutsideOfTheImage) {
 
 Rigid3 Forward(double metres) { return {Eigen::Quaterniond::Identity(), {0.0, 0.0, -metres}}; }
 
+TEST(CompareSurfaces, CountsTheCellsOfTheFirstFrame) {
+  const Frame far = FrameAtWall(3.0), near = FrameAtWall(2.0);
+  const SurfaceAgreement same = CompareSurfaces(far, near, Forward(1.0));
+  EXPECT_GT(same.num_same, 200);
+  EXPECT_EQ(same.num_violations, 0);
+  // The wall at 3 m would be at 1.5 m, in the free space of the second camera, and the wall of that
+  // one at 3.5 m, hidden from the first camera.
+  const SurfaceAgreement nearer = CompareSurfaces(far, near, Forward(1.5));
+  EXPECT_EQ(nearer.num_same, 0);
+  EXPECT_GT(nearer.num_violations, 100);
+  const SurfaceAgreement hidden = CompareSurfaces(near, far, Forward(1.5).Inverse());
+  EXPECT_EQ(hidden.num_same + hidden.num_violations, 0);
+}
+
+TEST(CompareSurfaces, ComparesNothingWithoutDepth) {
+  const SurfaceAgreement agreement = CompareSurfaces(FrameAtWall(3.0), Frame(), Forward(1.5));
+  EXPECT_EQ(agreement.num_same + agreement.num_violations, 0);
+}
+
 TEST(NumFreeSpaceViolations, IsZeroAtTheRightPose) {
   EXPECT_EQ(NumFreeSpaceViolations(FrameAtWall(3.0), FrameAtWall(2.0), Forward(1.0)), 0);
 }

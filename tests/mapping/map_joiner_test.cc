@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "msc_vo/geometry/angles.h"
+
 namespace msc_vo {
 namespace {
 
@@ -84,6 +86,34 @@ TEST_F(MapJoinerTest, ForgetsKeyframesThatAgreeOnAnImpossibleMotion) {
   EXPECT_TRUE(JoinAt(6.0, 0.0));  // three of six would not be more than half
   EXPECT_EQ(joiner_.num_refused(), 1);
 }
+
+// Axes that are rotated about the y axis against those of the older map.
+class AxesOfMapsTest : public MapJoinerTest {
+ protected:
+  AxesOfMapsTest() {
+    atlas_.ChangeAll([](SubMap* submap) {
+      submap->axes.Restore({Eigen::Quaterniond::Identity(), DegreesToRadians(0.2), 0.0});
+    });
+  }
+  bool JoinsWithAxes(double degrees, double sigma_degrees) {
+    const Eigen::AngleAxisd rotation(DegreesToRadians(degrees), Eigen::Vector3d::UnitY());
+    atlas_.current().axes = SceneAxes(SceneAxesOptions());
+    atlas_.current().axes.Restore(
+        {Eigen::Quaterniond(rotation), DegreesToRadians(sigma_degrees), 0.0});
+    return JoinAt(4.0, 0.0).has_value();
+  }
+};
+
+TEST_F(AxesOfMapsTest, ExcludeAJoinIfTheyDiffer) {
+  EXPECT_FALSE(JoinsWithAxes(10.0, 0.2));
+  EXPECT_EQ(joiner_.num_refused(), 1);
+}
+
+TEST_F(AxesOfMapsTest, MayDifferWithinTheirSigma) { EXPECT_TRUE(JoinsWithAxes(0.3, 0.2)); }
+
+TEST_F(AxesOfMapsTest, MayBeInterchanged) { EXPECT_TRUE(JoinsWithAxes(90.3, 0.2)); }
+
+TEST_F(AxesOfMapsTest, AreIgnoredWhileTheyAreCoarse) { EXPECT_TRUE(JoinsWithAxes(10.0, 1.0)); }
 
 // The first gap is crossed at 1.4 m/s, the second one at 2.5 m/s. Nobody has seen either motion.
 TEST_F(MapJoinerTest, DoesNotLearnSpeedsFromGaps) {

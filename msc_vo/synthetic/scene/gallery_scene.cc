@@ -34,8 +34,8 @@ Scene MakeFurniture(uint64_t seed) {
   return builder.scene();
 }
 
-// A hall with furniture along the wall behind the visitors of its board, and that board.
-Scene MakeHall(const Scene& board, const Placement& place, uint64_t seed, int index) {
+// A hall with its exhibit, and a bookcase and a door behind those who look at it.
+Scene MakeHall(const Scene& exhibit, const Placement& place, uint64_t seed, int index) {
   SceneBuilder builder(seed, 1 + index);
   Random& random = builder.random();
   const double x = random.Uniform(2.6, 4.2), y = random.Uniform(2.6, 4.2);
@@ -46,12 +46,12 @@ Scene MakeHall(const Scene& board, const Placement& place, uint64_t seed, int in
   AddBookcase(UprightFrame({random.Uniform(-1.0, 1.0), y, 0}, kPi), {1.5, 1.8}, &builder);
   AddDoor(UprightFrame({x, random.Uniform(-1.0, 1.0), 0}, 0.5 * kPi), {0.9, 2.02},
           {0.66f, 0.55f, 0.42f}, &builder);
-  AddCopy(board, place, 0, &builder.scene());
+  AddCopy(exhibit, place, 0, &builder.scene());
   builder.scene().lights = {{{0, 0, height - 0.2}, 0.85, 2.6}};
   return builder.scene();
 }
 
-// Before the board, and a look to either side.
+// Before the exhibit, with a look to either side.
 std::vector<Step> VisitorSteps() {
   return {{-0.7, 1.7, -80}, {-0.3, 1.5, -85},  {0.2, 1.6, -95}, {0.7, 1.8, -100},
           {0.8, 1.9, -60},  {0.8, 2.0, -10},   {0.7, 2.0, -60}, {0.0, 1.9, -95},
@@ -61,7 +61,7 @@ std::vector<Step> VisitorSteps() {
 }  // namespace
 
 Scene MakeGallery(uint64_t seed, const WalkOptions& walk) {
-  const Scene board = seed % 2 == 1 ? MakeBoard(seed) : MakeFurniture(seed);
+  const Scene exhibit = seed % 2 == 1 ? MakeBoard(seed) : MakeFurniture(seed);
   const int visited = walk.returns ? 0 : static_cast<int>((walk.path - 1) % kNumHalls);
   TourWriter writer(seed, walk);
   Random random(seed, 100);
@@ -71,8 +71,9 @@ Scene MakeGallery(uint64_t seed, const WalkOptions& walk) {
                                       random.Uniform(-0.6, 0.6));
     const Placement in_hall{frame.rotation().toRotationMatrix(), frame.translation()};
     const Eigen::Vector3d offset(i * kHallDistance, 0, 0);
-    AddCopy(MakeHall(board, in_hall, seed, i), {Eigen::Matrix3d::Identity(), offset}, i, &scene);
-    if (i == visited) writer.Add({in_hall.linear, in_hall.offset + offset}, VisitorSteps());
+    AddCopy(MakeHall(exhibit, in_hall, seed, i), {Eigen::Matrix3d::Identity(), offset}, i, &scene);
+    scene.look_alikes.push_back({in_hall.linear, in_hall.offset + offset});
+    if (i == visited) writer.Add(scene.look_alikes.back(), VisitorSteps());
   }
   scene.tour = writer.tour();
   return scene;

@@ -111,7 +111,7 @@ enum class SceneKind {
   kMirrored,  ///< rooms that mirror each other across a corridor and along it
   kFloors,    ///< two identical floors, connected by a lift shaft
   kDesks,     ///< identical desks with identical objects in one hall
-  kGallery,   ///< halls of different shapes that show the same pictures
+  kGallery,   ///< two halls of different shapes with the same board of pictures, or furniture
   // Blank surfaces, which points and lines hardly hold.
   kBlank,    ///< a room of walls, floor and ceiling, nothing else
   kZigZag,   ///< zigzag walls so close that the image shows little else

@@ -173,6 +173,50 @@ TEST(MirroredSceneTest, HasReflectedAndRotatedCopies) {
             2);
 }
 
+TEST(GallerySceneTest, ShowsTheSameThingInHallsThatDiffer) {
+  for (const uint64_t seed : {1, 2}) {
+    const Scene scene = MakeScene(SceneKind::kGallery, seed);
+    ASSERT_EQ(scene.look_alikes.size(), 2u);
+    // Distance of the nearest surface that faces a visitor of either exhibit; along rays through
+    // it, and beside it.
+    const auto distance = [&](int hall, const Vec& direction) {
+      const Placement& place = scene.look_alikes[hall];
+      return *scene.CastRay(place.linear * Vec(0.0, 1.6, 1.45) + place.offset,
+                            place.linear * direction);
+    };
+    for (const double x : {-0.3, 0.0, 0.2}) {
+      EXPECT_NEAR(distance(0, {x, -1.0, 0.0}), distance(1, {x, -1.0, 0.0}), 1e-9) << seed;
+    }
+    for (const double x : {-1.0, 1.0}) {
+      EXPECT_GT(std::abs(distance(0, {x, 0.0, 0.0}) - distance(1, {x, 0.0, 0.0})), 0.05) << seed;
+    }
+  }
+}
+
+TEST(GallerySceneTest, PathsVisitItsHallsInTurn) {
+  const auto hall_of = [](const WalkOptions& walk) {
+    const Scene scene = MakeScene(SceneKind::kGallery, 3, walk);
+    const auto distance = [&](int hall) {
+      return (scene.tour.front().position - scene.look_alikes[hall].offset).norm();
+    };
+    return distance(0) < distance(1) ? 0 : 1;
+  };
+  EXPECT_EQ(hall_of({1, false}), 0);
+  EXPECT_EQ(hall_of({2, false}), 1);
+  EXPECT_EQ(hall_of({3, false}), 0);
+  EXPECT_EQ(hall_of({2, true}), 0);
+}
+
+TEST(GallerySceneTest, WalksStayInFreeSpace) {
+  for (uint64_t seed = 1; seed <= 12; ++seed) {
+    const Scene scene = MakeScene(SceneKind::kGallery, seed, {1 + seed % 5, false});
+    const CameraPath path(scene, BriskWalk(seed));
+    for (double seconds = 0.0; seconds < path.LoopSeconds(); seconds += 0.3) {
+      EXPECT_GT(scene.Clearance(path.CamFromWorld(seconds).OriginInSource()), 0.3) << seed;
+    }
+  }
+}
+
 TEST(OtherPathTest, MovesTheTourThroughTheSameRoom) {
   for (const SceneKind kind : {SceneKind::kRoom, SceneKind::kCorridor, SceneKind::kHouse}) {
     const Scene first = MakeScene(kind, 4), other = MakeScene(kind, 4, {2, false});
