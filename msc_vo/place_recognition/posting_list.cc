@@ -42,7 +42,14 @@ void PostingList::Prefetch() const {
 PostingList::Position PostingList::Find(Slot slot) const {
   Position position;
   const uint8_t* byte = bytes_.data();
+  const uint8_t* const end = byte + bytes_.size();
   do {
+    while (end - byte >= 4 && AreSingleBytes(byte)) {
+      const Slot fourth = position.slot + byte[0] + byte[1] + byte[2] + byte[3];
+      if (fourth >= slot) break;
+      position.slot = fourth;
+      byte += 4;
+    }
     position.begin = static_cast<size_t>(byte - bytes_.data());
     position.before = position.slot;
     position.slot += ReadGap(&byte);
