@@ -3,7 +3,7 @@
 
 #include "msc_vo/place_recognition/binary_words.h"
 
-#include <algorithm>
+#include <array>
 
 #include "msc_vo/frame/descriptor.h"
 
@@ -32,28 +32,43 @@ BinaryWord WordOf(const Descriptor& descriptor, int index) {
   return word;
 }
 
-// Appends words of all features. The words of each index begin at a number of their own.
-template <typename Feature>
-void Append(const std::vector<Feature>& features, int num_words, int first_table,
-            std::vector<BinaryWord>* words) {
-  for (const Feature& feature : features) {
-    for (int i = 0; i < num_words; ++i) {
-      const BinaryWord table = static_cast<BinaryWord>(first_table + i) << kNumBits;
-      words->push_back(table + WordOf(feature.descriptor, i));
+// A set of words, in which their order comes by itself.
+class WordSet {
+ public:
+  // Adds the words of all features. The words of each index begin at a number of their own.
+  template <typename Feature>
+  void Add(const std::vector<Feature>& features, int num_words, int first_table) {
+    for (const Feature& feature : features) {
+      for (int i = 0; i < num_words; ++i) {
+        const BinaryWord table = static_cast<BinaryWord>(first_table + i) << kNumBits;
+        const BinaryWord word = table + WordOf(feature.descriptor, i);
+        groups_[word / kGroup] |= uint64_t{1} << (word % kGroup);
+      }
     }
   }
-}
+
+  std::vector<BinaryWord> Ascending() const {
+    std::vector<BinaryWord> words;
+    for (BinaryWord i = 0; i < groups_.size(); ++i) {
+      for (uint64_t group = groups_[i]; group != 0; group &= group - 1) {
+        words.push_back(i * kGroup + static_cast<BinaryWord>(__builtin_ctzll(group)));
+      }
+    }
+    return words;
+  }
+
+ private:
+  static constexpr BinaryWord kGroup = 64;
+  std::array<uint64_t, kNumBinaryWords / kGroup> groups_{};  // one bit per word
+};
 
 }  // namespace
 
 std::vector<BinaryWord> WordsOf(const Frame& frame) {
-  std::vector<BinaryWord> words;
-  words.reserve(kWordsPerPoint * frame.points.size() + kWordsPerLine * frame.lines.size());
-  Append(frame.points, kWordsPerPoint, 0, &words);
-  Append(frame.lines, kWordsPerLine, kWordsPerPoint, &words);
-  std::sort(words.begin(), words.end());
-  words.erase(std::unique(words.begin(), words.end()), words.end());
-  return words;
+  WordSet words;
+  words.Add(frame.points, kWordsPerPoint, 0);
+  words.Add(frame.lines, kWordsPerLine, kWordsPerPoint);
+  return words.Ascending();
 }
 
 }  // namespace msc_vo

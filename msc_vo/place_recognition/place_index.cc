@@ -16,16 +16,6 @@ namespace {
 // anywhere in memory.
 constexpr size_t kAhead = 8;
 
-// Lets the processor load the elements of a list that will be read soon.
-template <typename T>
-void Prefetch(const std::vector<T>& list) {
-  constexpr size_t kCacheLine = 64;     // bytes
-  constexpr size_t kMaxPrefetched = 8;  // cache lines; hardware loads the rest of a long list
-  const char* begin = reinterpret_cast<const char*>(list.data());
-  const size_t size = std::min(list.size() * sizeof(T), kMaxPrefetched * kCacheLine);
-  for (size_t offset = 0; offset < size; offset += kCacheLine) __builtin_prefetch(begin + offset);
-}
-
 }  // namespace
 
 void PlaceIndex::Add(KeyframeId keyframe, std::shared_ptr<const Frame> frame) {
@@ -38,8 +28,8 @@ void PlaceIndex::Add(KeyframeId keyframe, std::shared_ptr<const Frame> frame) {
   free_slots_.pop_back();
   slots_[keyframe] = slot;
   const std::vector<BinaryWord> words = WordsOf(*frame);
-  for (const BinaryWord word : words) keyframes_of_word_[word].push_back(slot);
-  entries_[slot] = {std::move(frame), static_cast<int>(words.size())};
+  for (const BinaryWord word : words) keyframes_of_word_[word].Insert(slot);
+  entries_[slot] = {keyframe, std::move(frame), static_cast<int>(words.size())};
 }
 
 void PlaceIndex::Remove(KeyframeId keyframe) {
@@ -47,9 +37,7 @@ void PlaceIndex::Remove(KeyframeId keyframe) {
   if (place == slots_.end()) return;
   const Slot slot = place->second;
   for (const BinaryWord word : WordsOf(*entries_[slot].frame)) {
-    std::vector<Slot>& slots = keyframes_of_word_[word];
-    *std::find(slots.begin(), slots.end(), slot) = slots.back();
-    slots.pop_back();
+    keyframes_of_word_[word].Remove(slot);
   }
   entries_[slot] = {};
   free_slots_.push_back(slot);
@@ -84,25 +72,27 @@ std::vector<Place> PlaceIndex::Query(const Frame& frame, int max_places) const {
   const std::vector<BinaryWord> words = WordsOf(frame);
   std::vector<float> scores(entries_.size(), 0.0f);
   for (size_t i = 0; i < words.size(); ++i) {
-    if (i + kAhead < words.size()) Prefetch(keyframes_of_word_[words[i + kAhead]]);
-    const std::vector<Slot>& slots = keyframes_of_word_[words[i]];
-    if (slots.empty()) continue;
+    if (i + kAhead < words.size()) keyframes_of_word_[words[i + kAhead]].Prefetch();
+    const PostingList& slots = keyframes_of_word_[words[i]];
+    if (slots.size() == 0) continue;
     // 0 for a word that all keyframes have
     const float weight = static_cast<float>(std::log(num_keyframes / slots.size()));
-    for (const Slot slot : slots) scores[slot] += weight;
+    slots.ForEach([weight, score = scores.data()](Slot slot) { score[slot] += weight; });
   }
   std::vector<Place> places;
-  for (const auto& [id, slot] : slots_) {
-    if (scores[slot] <= 0.0f) continue;
-    places.push_back({id, scores[slot] / std::sqrt(static_cast<double>(words.size()) *
-                                                   entries_[slot].num_words)});
+  for (size_t i = 0; i < entries_.size(); ++i) {
+    if (scores[i] <= 0.0f) continue;  // also if the slot is free
+    const double norm = std::sqrt(static_cast<double>(words.size()) * entries_[i].num_words);
+    places.push_back({entries_[i].keyframe, scores[i] / norm});
   }
   const auto is_better = [](const Place& a, const Place& b) {
     return a.score != b.score ? a.score > b.score : a.keyframe > b.keyframe;
   };
-  const auto end = places.begin() + std::min<size_t>(max_places, places.size());
-  std::partial_sort(places.begin(), end, places.end(), is_better);
-  places.erase(end, places.end());
+  if (static_cast<size_t>(max_places) < places.size()) {
+    std::nth_element(places.begin(), places.begin() + max_places, places.end(), is_better);
+    places.resize(max_places);
+  }
+  std::sort(places.begin(), places.end(), is_better);
   return places;
 }
 

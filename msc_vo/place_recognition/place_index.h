@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <cstdint>
 #include <map>
 #include <memory>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "msc_vo/map/map.h"
 #include "msc_vo/map/snapshot.h"
 #include "msc_vo/place_recognition/binary_words.h"
+#include "msc_vo/place_recognition/posting_list.h"
 
 namespace msc_vo {
 
@@ -41,16 +41,17 @@ class PlaceIndex {
 
  private:
   // Number of a keyframe while it is in the index.
-  using Slot = uint32_t;
+  using Slot = PostingList::Slot;
   struct Entry {
-    std::shared_ptr<const Frame> frame;  // null: the slot is free
+    KeyframeId keyframe = kNoId;  // kNoId: the slot is free
+    std::shared_ptr<const Frame> frame;
     int num_words = 0;
   };
 
   std::map<KeyframeId, Slot> slots_;
   std::vector<Entry> entries_;  // by slot
   std::vector<Slot> free_slots_;
-  std::vector<std::vector<Slot>> keyframes_of_word_;  // empty until the first keyframe is added
+  std::vector<PostingList> keyframes_of_word_;  // empty until the first keyframe is added
 };
 
 }  // namespace msc_vo
