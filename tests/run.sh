@@ -95,7 +95,7 @@ case $sanitize in
     test_sanitized thread tsan "^(${TESTS:-$threaded})\." $(targets_of "${TESTS:-$threaded}")
     ;;
   pipeline)
-    pipeline='.*RunnerTest\.|SideWorker|SnapshotSchedule.*|SegmentsTest\.AreTheSameAtAnyThreadCount'
+    pipeline='.*RunnerTest\.|SideWorkers|SnapshotSchedule.*|SegmentsTest\.AreTheSameAtAnyThreadCount'
     test_sanitized thread tsan "^odometry\.($pipeline)" odometry_test
     ;;
   *)

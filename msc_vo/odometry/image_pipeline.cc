@@ -3,6 +3,7 @@
 
 #include "msc_vo/odometry/image_pipeline.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "msc_vo/odometry/input_checks.h"
@@ -12,14 +13,19 @@
 
 namespace msc_vo {
 
+namespace {
+
+constexpr int kMaxThreads = 10;  // as many as FrameBuilder has tasks
+
+}  // namespace
+
 ImagePipeline::ImagePipeline(const OdometryOptions& options, const PinholeCamera& camera,
                              const LensDistortion& distortion)
     : options_(options),
       builder_(options.features, camera, distortion),
       preparation_(builder_.intrinsics()),
-      normals_(std::in_place, NormalOptions(options), camera, distortion) {
-  if (options.threads > 1) side_worker_ = std::make_unique<SideWorker>();
-}
+      normals_(std::in_place, NormalOptions(options), camera, distortion),
+      side_workers_(std::min(options.threads, kMaxThreads) - 1) {}
 
 void ImagePipeline::Check(const RgbdImage& image) const {
   CheckDepthDelay(image.id, image.depth_delay);
@@ -42,9 +48,7 @@ AlignedImage ImagePipeline::Align(const RgbdImage& given,
 }
 
 ExtractedFrame ImagePipeline::Extract(const AlignedImage& image, StageTimes* times) {
-  const TaskRunner run = [this](const Tasks& tasks) {
-    side_worker_ ? side_worker_->RunAll(tasks) : RunSequentially(tasks);
-  };
+  const TaskRunner run = [this](const Tasks& tasks) { side_workers_.RunAll(tasks); };
   times->features = image.milliseconds;
   RgbdImage registered =
       Timed(&times->features, [&] { return preparation_.Register(image.aligned); });

@@ -12,7 +12,7 @@
 #include "msc_vo/odometry/depth_preparation.h"
 #include "msc_vo/odometry/frame_result.h"
 #include "msc_vo/odometry/odometry_options.h"
-#include "msc_vo/odometry/side_worker.h"
+#include "msc_vo/odometry/side_workers.h"
 #include "msc_vo/structure/axis_evidence.h"
 
 namespace msc_vo {
@@ -78,7 +78,7 @@ class ImagePipeline {
   FrameBuilder builder_;
   DepthPreparation preparation_;
   std::optional<SurfaceNormalEstimator> normals_;
-  std::unique_ptr<SideWorker> side_worker_;  // none with one thread
+  SideWorkers side_workers_;
 };
 
 }  // namespace msc_vo

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/odometry/side_worker.h"
+#include "msc_vo/odometry/side_workers.h"
 
 #include <atomic>
+#include <condition_variable>
 #include <functional>
 #include <future>
+#include <mutex>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -15,8 +17,8 @@
 namespace msc_vo {
 namespace {
 
-TEST(SideWorker, RunsTasksInParallelRepeatedly) {
-  SideWorker worker;
+TEST(SideWorkers, RunsTasksInParallelRepeatedly) {
+  SideWorkers workers(1);
   std::thread::id ran_first;
   std::thread::id ran_second;
   for (int i = 0; i < 1000; ++i) {
@@ -35,7 +37,7 @@ TEST(SideWorker, RunsTasksInParallelRepeatedly) {
       to_first.set_value(i + 1);
       ran_second = std::this_thread::get_id();
     };
-    worker.RunAll({first, second});
+    workers.RunAll({first, second});
     ASSERT_EQ(got_by_first, i + 1);
     ASSERT_EQ(got_by_second, i);
   }
@@ -43,8 +45,8 @@ TEST(SideWorker, RunsTasksInParallelRepeatedly) {
   EXPECT_TRUE(ran_first == std::this_thread::get_id() || ran_second == std::this_thread::get_id());
 }
 
-TEST(SideWorker, RunsTasksOnTheCallerWhileTheWorkerIsBusy) {
-  SideWorker worker;
+TEST(SideWorkers, RunsTasksOnTheCallerWhileTheWorkerIsBusy) {
+  SideWorkers workers(1);
   for (int i = 0; i < 100; ++i) {
     // The first task ends only after all others, which the other thread must run.
     std::promise<void> others_done;
@@ -56,30 +58,55 @@ TEST(SideWorker, RunsTasksOnTheCallerWhileTheWorkerIsBusy) {
         if (++num_done == 7) others_done.set_value();
       });
     }
-    worker.RunAll(tasks);
+    workers.RunAll(tasks);
     ASSERT_EQ(num_done, 7);
   }
 }
 
-TEST(SideWorker, RethrowsTheFirstException) {
-  SideWorker worker;
+TEST(SideWorkers, RethrowsTheFirstException) {
+  SideWorkers workers(1);
   bool done = false;
   const auto fine = [&done] { done = true; };
   const auto bad = [] { throw std::runtime_error("bad"); };
   const auto worse = [] { throw std::invalid_argument("worse"); };
-  EXPECT_THROW(worker.RunAll({fine, bad}), std::runtime_error);
+  EXPECT_THROW(workers.RunAll({fine, bad}), std::runtime_error);
   EXPECT_TRUE(done);  // the other task was completed
   done = false;
-  EXPECT_THROW(worker.RunAll({bad, fine}), std::runtime_error);
+  EXPECT_THROW(workers.RunAll({bad, fine}), std::runtime_error);
   EXPECT_TRUE(done);
-  EXPECT_THROW(worker.RunAll({worse, bad}), std::invalid_argument);
+  EXPECT_THROW(workers.RunAll({worse, bad}), std::invalid_argument);
   // The next call is not affected.
   done = false;
-  EXPECT_NO_THROW(worker.RunAll({fine, [] {}}));
+  EXPECT_NO_THROW(workers.RunAll({fine, [] {}}));
   EXPECT_TRUE(done);
 }
 
-TEST(SideWorker, IsDestroyedWithoutTasks) { SideWorker worker; }
+TEST(SideWorkers, RunsAsManyTasksAtATimeAsThereAreThreads) {
+  constexpr int kNumThreads = 5;  // the caller among them
+  SideWorkers workers(kNumThreads - 1);
+  std::mutex mutex;
+  std::condition_variable changed;
+  int num_waiting = 0;
+  // Each waits for all others.
+  const auto task = [&] {
+    std::unique_lock<std::mutex> lock(mutex);
+    ++num_waiting;
+    changed.notify_all();
+    changed.wait(lock, [&] { return num_waiting == kNumThreads; });
+  };
+  workers.RunAll(std::vector<std::function<void()>>(kNumThreads, task));
+  EXPECT_EQ(num_waiting, kNumThreads);
+}
+
+TEST(SideWorkers, RunsAllTasksOnTheCallerWithoutThreads) {
+  SideWorkers workers(0);
+  std::vector<std::thread::id> ran_on;
+  const auto task = [&] { ran_on.push_back(std::this_thread::get_id()); };
+  workers.RunAll({task, task, task});
+  EXPECT_EQ(ran_on, std::vector<std::thread::id>(3, std::this_thread::get_id()));
+}
+
+TEST(SideWorkers, AreDestroyedWithoutTasks) { SideWorkers workers(3); }
 
 }  // namespace
 }  // namespace msc_vo

@@ -12,18 +12,19 @@
 
 namespace msc_vo {
 
-/// A thread that processes independent tasks together with its caller. Each of the two takes the
-/// next task when it has finished one, so that the caller never waits for a thread that has not
-/// been scheduled. The thread is reused, because starting one per frame costs more than it saves.
-/// For use by one thread at a time.
-class SideWorker {
+/// Threads that process independent tasks together with their caller. Each takes the next task when
+/// it has finished one, so that the caller never waits for a thread that has not been scheduled.
+/// The threads are reused, because starting them for each frame costs more than they save. For use
+/// by one thread at a time.
+class SideWorkers {
  public:
-  SideWorker();
-  ~SideWorker();
-  SideWorker(const SideWorker&) = delete;
-  SideWorker& operator=(const SideWorker&) = delete;
+  /// `num_threads` >= 0: beside the caller.
+  explicit SideWorkers(int num_threads);
+  ~SideWorkers() { Stop(); }
+  SideWorkers(const SideWorkers&) = delete;
+  SideWorkers& operator=(const SideWorkers&) = delete;
 
-  /// Starts the tasks in order, on the calling thread and on the worker, and returns when all are
+  /// Starts the tasks in order, on all threads, and returns when all are
   /// done. If tasks throw, the exception of the first of them in order is rethrown then.
   void RunAll(const std::vector<std::function<void()>>& tasks);
 
@@ -31,6 +32,7 @@ class SideWorker {
   bool HasTask() const { return tasks_ != nullptr && next_ < tasks_->size(); }
   void RunNext(std::unique_lock<std::mutex>* lock);
   void Loop();
+  void Stop();
 
   std::mutex mutex_;
   std::condition_variable changed_;
@@ -40,7 +42,7 @@ class SideWorker {
   size_t first_error_ = 0;  // index of the first task that threw
   std::exception_ptr error_;
   bool stopping_ = false;
-  std::thread thread_;  // last: it uses the members above
+  std::vector<std::thread> threads_;  // last: they use the members above
 };
 
 }  // namespace msc_vo

@@ -1,24 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/odometry/side_worker.h"
+#include "msc_vo/odometry/side_workers.h"
 
 #include <utility>
 
 namespace msc_vo {
 
-SideWorker::SideWorker() : thread_([this] { Loop(); }) {}
+SideWorkers::SideWorkers(int num_threads) {
+  try {
+    for (int i = 0; i < num_threads; ++i) threads_.emplace_back([this] { Loop(); });
+  } catch (...) {  // the system has no more threads
+    Stop();
+    throw;
+  }
+}
 
-SideWorker::~SideWorker() {
+void SideWorkers::Stop() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     stopping_ = true;
   }
   changed_.notify_all();
-  thread_.join();
+  for (std::thread& thread : threads_) thread.join();
 }
 
-void SideWorker::RunAll(const std::vector<std::function<void()>>& tasks) {
+void SideWorkers::RunAll(const std::vector<std::function<void()>>& tasks) {
   std::unique_lock<std::mutex> lock(mutex_);
   tasks_ = &tasks;
   next_ = 0;
@@ -32,7 +39,7 @@ void SideWorker::RunAll(const std::vector<std::function<void()>>& tasks) {
 }
 
 // Runs the next task with the lock released.
-void SideWorker::RunNext(std::unique_lock<std::mutex>* lock) {
+void SideWorkers::RunNext(std::unique_lock<std::mutex>* lock) {
   const size_t index = next_++;
   const std::function<void()>& task = (*tasks_)[index];
   ++num_running_;
@@ -51,7 +58,7 @@ void SideWorker::RunNext(std::unique_lock<std::mutex>* lock) {
   if (--num_running_ == 0) changed_.notify_all();
 }
 
-void SideWorker::Loop() {
+void SideWorkers::Loop() {
   std::unique_lock<std::mutex> lock(mutex_);
   for (;;) {
     changed_.wait(lock, [this] { return stopping_ || HasTask(); });
