@@ -1,5 +1,5 @@
 # Cross-builds for 64-bit ARM with Debian's g++-aarch64-linux-gnu; programs run under qemu-aarch64
-# (docs/reliability.md says how to make the root):
+# (cmake/cross_build.sh makes the root and calls this):
 #
 #   cmake -S . -B build-arm64 --toolchain cmake/toolchains/aarch64-linux-gnu.cmake
 #         -DCMAKE_SYSROOT=/path/to/an/arm64/root -DCMAKE_BUILD_TYPE=Release
