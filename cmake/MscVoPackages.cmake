@@ -1,6 +1,7 @@
 # Debian packages by CPack, one per component of the installation. cmake/make_packages.sh configures
 # the build for them and runs CPack; docs/packages.md describes them.
-if(NOT PROJECT_IS_TOP_LEVEL OR BUILD_SHARED_LIBS)  # the packages contain static libraries
+# They contain static libraries, and their tools read what is installed on this machine.
+if(NOT PROJECT_IS_TOP_LEVEL OR BUILD_SHARED_LIBS OR CMAKE_CROSSCOMPILING)
   return()
 endif()
 set(MSC_VO_PACKAGE_REVISION 1 CACHE STRING "Revision of the Debian packages")

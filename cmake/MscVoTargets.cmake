@@ -28,6 +28,12 @@ function(msc_vo_compile_options target)
     # GCC 12 warns about its own AVX headers: variables for AVX-512, arrays for AVX2.
     target_compile_options(${target} PRIVATE -Wno-error=maybe-uninitialized
                            -Wno-error=array-bounds)
+  else()
+    # Multiplication and addition are rounded one by one, as on a processor that cannot fuse them.
+    target_compile_options(${target} PRIVATE -ffp-contract=off)
+    if(CMAKE_SYSTEM_PROCESSOR STREQUAL aarch64)
+      target_include_directories(${target} BEFORE PRIVATE ${PROJECT_SOURCE_DIR}/cmake/aarch64)
+    endif()
   endif()
 endfunction()
 

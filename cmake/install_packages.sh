@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs the missing packages of cmake/debian_packages.txt without asking.
 #
-#   install_packages.sh [report] [optional] [developer] [tests] [clang]
+#   install_packages.sh [report] [optional] [developer] [tests] [clang] [arm64]
 #
 # The arguments name further lists, cmake/debian_packages_NAME.txt. It goes on without a package of
 # these that the release does not have or that cannot be installed. If no package is missing, it needs
@@ -10,7 +10,7 @@ set -euo pipefail
 cd "$(dirname "$0")"
 for list in "$@"; do
   if [[ ! -f debian_packages_$list.txt ]]; then
-    echo "usage: cmake/install_packages.sh [report] [optional] [developer] [tests] [clang]" >&2
+    echo "usage: cmake/install_packages.sh [report] [optional] [developer] [tests] [clang] [arm64]" >&2
     exit 2
   fi
 done

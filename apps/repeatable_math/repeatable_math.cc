@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// Mathematical functions with the same bits on every x86-64 processor.
+// Mathematical functions with the same bits on every x86-64 and 64-bit ARM processor.
 //
 // The C library has several versions of each and chooses among them by the processor: with fused
 // multiply-add or without, which differ in the last bit. These definitions call SLEEF's versions
 // that are the same everywhere. Those of a program come before those of the C library, also for the
-// libraries that it loads. All other arithmetic is that of the compiler (SSE2), or exact.
+// libraries that it loads. All other arithmetic is that of the compiler, without fused
+// multiply-add, or exact.
 
 #include <sleef.h>
 

@@ -1,5 +1,5 @@
 # Cross-builds for 64-bit ARM with Debian's g++-aarch64-linux-gnu; programs run under qemu-aarch64
-# (docs/reliability.md says how to make the root):
+# (cmake/cross_build.sh makes the root and calls this):
 #
 #   cmake -S . -B build-arm64 --toolchain cmake/toolchains/aarch64-linux-gnu.cmake
 #         -DCMAKE_SYSROOT=/path/to/an/arm64/root -DCMAKE_BUILD_TYPE=Release
@@ -16,3 +16,5 @@ set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
 set(CMAKE_CROSSCOMPILING_EMULATOR qemu-aarch64 -L ${CMAKE_SYSROOT})
+set(ENV{PKG_CONFIG_SYSROOT_DIR} ${CMAKE_SYSROOT})
+set(ENV{PKG_CONFIG_LIBDIR} ${CMAKE_SYSROOT}/usr/lib/aarch64-linux-gnu/pkgconfig:${CMAKE_SYSROOT}/usr/share/pkgconfig)

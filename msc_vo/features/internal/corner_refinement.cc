@@ -53,6 +53,12 @@ std::array<float, kWindow> GaussianWeights() {
 // Values of eight consecutive pixels of a row: two vectors of four floats.
 using Row = Eigen::Array<float, 8, 1>;
 
+// The order of Eigen's own sum depends on the processor.
+float Sum(const Row& row) {
+  const Eigen::Array4f half = row.head<4>() + row.tail<4>();
+  return (half[0] + half[2]) + (half[1] + half[3]);
+}
+
 // Products of the gradient components of the eight pixels from `row` on.
 struct GradientProducts {
   Row xx, xy, yy;
@@ -206,13 +212,13 @@ class ApexSearch {
       yy_y += y.distance[v] * weighted_yy;
       yy_yy += y.distance[v] * y.distance[v] * weighted_yy;
     }
-    moments_(0, 0) = (x.weight * xx).sum();
-    moments_(0, 1) = moments_(1, 0) = (x.weight * xy).sum();
-    moments_(1, 1) = (x.weight * yy).sum();
-    offset_.x() = (x.weight * (xx * x.distance + xy_y)).sum();
-    offset_.y() = (x.weight * (xy * x.distance + yy_y)).sum();
+    moments_(0, 0) = Sum(x.weight * xx);
+    moments_(0, 1) = moments_(1, 0) = Sum(x.weight * xy);
+    moments_(1, 1) = Sum(x.weight * yy);
+    offset_.x() = Sum(x.weight * (xx * x.distance + xy_y));
+    offset_.y() = Sum(x.weight * (xy * x.distance + yy_y));
     const Row squares = (xx * x.distance + 2.0f * xy_y) * x.distance + yy_yy;
-    misfit_ = (x.weight * squares).sum() / moments_.trace();
+    misfit_ = Sum(x.weight * squares) / moments_.trace();
     return true;
   }
 
