@@ -29,24 +29,29 @@ Places MatchedPlaces(const FrameMatches& matches, const Map& map) {
   return places;
 }
 
-Places AllPlaces(const Map& map) {
-  Places places;
-  ForEachLandmarkKind([&](auto kind) {
-    for (const auto& [id, landmark] : map.landmarks<typename decltype(kind)::Landmark>()) {
-      places.push_back(landmark.Center());
-    }
-  });
-  return places;
+// Whether a place is not in a plane, to 3 % of its distance from the camera.
+bool IsBeside(const Plane& plane, const Eigen::Vector3d& camera, const Eigen::Vector3d& place) {
+  constexpr double kTolerance = 0.03;
+  return std::abs(plane.normal().dot(place) + plane.offset()) >
+         kTolerance * (place - camera).norm();
 }
 
-// Places that are not in a plane, to 3 % of their distance from the camera.
 int NumBeside(const Plane& plane, const Eigen::Vector3d& camera, const Places& places) {
-  constexpr double kTolerance = 0.03;
-  const auto is_beside = [&](const Eigen::Vector3d& place) {
-    return std::abs(plane.normal().dot(place) + plane.offset()) >
-           kTolerance * (place - camera).norm();
-  };
-  return static_cast<int>(std::count_if(places.begin(), places.end(), is_beside));
+  return static_cast<int>(
+      std::count_if(places.begin(), places.end(),
+                    [&](const Eigen::Vector3d& place) { return IsBeside(plane, camera, place); }));
+}
+
+// Whether a map has at least `num` landmarks beside a plane.
+bool ExtendsBeyond(const Plane& plane, const Eigen::Vector3d& camera, const Map& map, int num) {
+  int num_beside = 0;
+  ForEachLandmarkKind([&](auto kind) {
+    for (const auto& [id, landmark] : map.landmarks<typename decltype(kind)::Landmark>()) {
+      if (num_beside >= num) return;
+      if (IsBeside(plane, camera, landmark.Center())) ++num_beside;
+    }
+  });
+  return num_beside >= num;
 }
 
 // The plane through three of the places that contains most of them. Not empty.
@@ -106,7 +111,7 @@ bool ShowsOnePlane(const Revisit& found, const Map& map, int min_matches) {
   const Eigen::Vector3d camera = cam_from_world.OriginInSource();
   const Plane plane = DominantPlane(places, camera);
   return NumBeside(plane, camera, places) < min_matches &&
-         NumBeside(plane, camera, AllPlaces(map)) >= min_matches;
+         ExtendsBeyond(plane, camera, map, min_matches);
 }
 
 bool ContradictsSurfaces(const TrackedFrame& tracked, const Map& own, const Revisit& found,
