@@ -97,8 +97,8 @@ void EventLog::LogMapping(const MappingStep& step) {
   if (summary.num_refused_joins > num_refused_joins_) {
     num_refused_joins_ = summary.num_refused_joins;
     Log().info(
-        "maps not joined at keyframe {}: several keyframes were found in both, but the "
-        "camera cannot have moved as fast as they say",
+        "maps not joined at keyframe {}: several keyframes were found in both, but the motion of "
+        "the camera or the Manhattan axes exclude it",
         summary.keyframe);
   }
   if (summary.loop) LogLoop(*summary.loop);
