@@ -5,9 +5,10 @@
 // from another one in the same world, or from another part of the same one.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
-#include <map>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -156,8 +157,10 @@ int RunRecall(int argc, char** argv) try {
   CLI::App app("Recall and precision of place recognition");
   app.add_option("index", index_folder, "Sequence of the keyframes, with ground truth")->required();
   app.add_option("queries", query_folder, "Sequence of the queries, with ground truth")->required();
-  app.add_option("--index-images", indexed, "First image, and the one after the last");
-  app.add_option("--query-images", queried, "First image, and the one after the last");
+  app.add_option("--index-images", indexed, "First image, and the one after the last")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--query-images", queried, "First image, and the one after the last")
+      ->check(CLI::NonNegativeNumber);
   app.add_option("--step", step, "Uses every STEP-th image of both")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

@@ -55,12 +55,25 @@ void PrintInfo(const std::string& file) {
             << std::endl;
 }
 
-// Writes the images of keyframes, named by their ids.
+// Whether a file has the name of an exported image: six digits or more.
+bool IsExportedImage(const std::filesystem::path& path) {
+  const std::string id = path.stem().string();
+  return path.extension() == ".jpg" && id.size() >= 6 &&
+         id.find_first_not_of("0123456789") == std::string::npos;
+}
+
+// Replaces the exported images of a folder by those of the keyframes, named by their ids.
 void ExportImages(const std::string& file, const std::string& folder) {
+  const std::filesystem::path path = std::filesystem::path(folder) / "images";
+  std::vector<std::filesystem::path> earlier;
+  std::error_code is_missing;
+  for (const auto& entry : std::filesystem::directory_iterator(path, is_missing)) {
+    if (IsExportedImage(entry.path())) earlier.push_back(entry.path());
+  }
+  for (const std::filesystem::path& image : earlier) std::filesystem::remove(image);
   const MapImages images(file);
   const std::vector<KeyframeId> keyframes = images.Keyframes();
   if (keyframes.empty()) return;
-  const std::filesystem::path path = std::filesystem::path(folder) / "images";
   MakeFolder(path.string());
   for (const KeyframeId id : keyframes) {
     const std::string name = FormatText("%06lld.jpg", static_cast<long long>(id));  // sorts by name

@@ -215,7 +215,7 @@ void AddSequenceArguments(CLI::App* command, SynthesizeArguments* arguments) {
       ->capture_default_str();
   command->add_flag("--returns", arguments->options.walk.returns,
                     "Come back to a place at the end of the path; needs a scene with places that "
-                    "look alike: rooms, mirrored, floors, desks, gallery");
+                    "look alike: rooms, mirrored, floors, desks");
   command
       ->add_option("--width", arguments->options.width,
                    "Image width, pixels; the focal length is proportional")
@@ -299,7 +299,7 @@ SyntheticSequenceOptions SequenceOptions(const SynthesizeArguments& arguments) {
   if (options.walk.returns && !HasLookAlikes(options.scene)) {
     throw std::runtime_error(
         "--returns needs a scene with places that look alike: give --scene "
-        "rooms, mirrored, floors, desks or gallery");
+        "rooms, mirrored, floors or desks");
   }
   std::string error;
   if (!options.IsValid(&error)) throw std::runtime_error(error);

@@ -41,7 +41,7 @@ double DepthRatio(const Frame& frame, const Eigen::Vector3d& point) {
   return nearest > 0.0 ? 1.0 / (nearest * point.z()) : 0.0;
 }
 
-// What a ratio of depths tells of its point.
+// Classify a point by its depth ratio.
 bool IsFree(double ratio) { return ratio > 1.0 + DepthRanges::kTolerance; }
 bool IsSurface(double ratio) { return std::abs(ratio - 1.0) <= DepthRanges::kTolerance; }
 

@@ -27,7 +27,7 @@ struct SurfaceAgreement {
 /// come only from depth errors.
 SurfaceAgreement CompareSurfaces(const Frame& a, const Frame& b, const Rigid3& b_from_a);
 
-/// The violations in that direction, of the two, that has more of them.
+/// The larger number of violations of the two directions.
 int NumFreeSpaceViolations(const Frame& a, const Frame& b, const Rigid3& b_from_a);
 
 }  // namespace msc_vo

@@ -16,18 +16,18 @@ namespace msc_vo {
 
 namespace {
 
-// Whether nearly all lines of a map follow its axes: a building may have wings with axes of their
+// Whether most lines of a map follow its axes: a building may have wings with axes of their
 // own, and maps of different wings have different axes.
 bool IsManhattan(const SubMap& submap) {
   constexpr double kMinRatio = 2.0 / 3.0;
   if (submap.axes.estimator().state() != AxesState::kRefined) return false;
   int num_certain = 0, num_along_axes = 0;
   for (const auto& [id, line] : submap.map.lines()) {
-    if (line.direction_sigma > kMaxAxisAngle) continue;
+    if (!(line.direction_sigma <= kMaxAxisAngle)) continue;
     ++num_certain;
     if (submap.axes.AxisOf(line)) ++num_along_axes;
   }
-  return num_along_axes >= kMinRatio * num_certain;
+  return num_along_axes > 0 && num_along_axes >= kMinRatio * num_certain;
 }
 
 // Whether the Manhattan axes of two worlds are parallel, up to their covariances, or one of the

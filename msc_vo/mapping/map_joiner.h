@@ -43,7 +43,7 @@ class MapJoiner {
   /// keyframes that agree on an impossible motion or on other axes are forgotten.
   std::optional<MapJoin> TryJoin(Atlas* atlas);
 
-  /// Alignments of the run so far that keyframes agreed on, but that motion or axes excluded.
+  /// Alignments of the run so far that keyframes agreed on, but that motion or axes rejected.
   int num_refused() const { return num_refused_; }
 
   /// Forgets the keyframes of the current map: another one begins.

@@ -32,7 +32,7 @@ BinaryWord WordOf(const Descriptor& descriptor, int index) {
   return word;
 }
 
-// A set of words, in which their order comes by itself.
+// A set of words as bits; iteration is in ascending order.
 class WordSet {
  public:
   // Adds the words of all features. The words of each index begin at a number of their own.

@@ -19,29 +19,38 @@ constexpr size_t kAhead = 8;
 }  // namespace
 
 void PlaceIndex::Add(KeyframeId keyframe, std::shared_ptr<const Frame> frame) {
-  keyframes_of_word_.resize(kNumBinaryWords);
-  if (free_slots_.empty()) {
-    free_slots_.push_back(static_cast<Slot>(entries_.size()));
-    entries_.emplace_back();
-  }
-  const Slot slot = free_slots_.back();
-  free_slots_.pop_back();
+  words_.resize(kNumBinaryWords);
+  const auto slot = static_cast<Slot>(entries_.size());
   slots_[keyframe] = slot;
   const std::vector<BinaryWord> words = WordsOf(*frame);
-  for (const BinaryWord word : words) keyframes_of_word_[word].Insert(slot);
-  entries_[slot] = {keyframe, std::move(frame), static_cast<int>(words.size())};
+  for (const BinaryWord word : words) {
+    words_[word].slots.Append(slot);
+    ++words_[word].num_keyframes;
+  }
+  entries_.push_back({keyframe, std::move(frame), static_cast<int>(words.size())});
 }
 
 void PlaceIndex::Remove(KeyframeId keyframe) {
   const auto place = slots_.find(keyframe);
   if (place == slots_.end()) return;
-  const Slot slot = place->second;
-  for (const BinaryWord word : WordsOf(*entries_[slot].frame)) {
-    keyframes_of_word_[word].Remove(slot);
-  }
-  entries_[slot] = {};
-  free_slots_.push_back(slot);
+  Entry& entry = entries_[place->second];
+  for (const BinaryWord word : WordsOf(*entry.frame)) --words_[word].num_keyframes;
+  entry = {};
   slots_.erase(place);
+  if (entries_.size() >= 2 * slots_.size()) Compact();
+}
+
+void PlaceIndex::Compact() {
+  std::vector<Slot> new_slots(entries_.size(), PostingList::kNoSlot);
+  std::vector<Entry> entries;
+  for (size_t i = 0; i < entries_.size(); ++i) {
+    if (entries_[i].keyframe == kNoId) continue;
+    new_slots[i] = static_cast<Slot>(entries.size());
+    slots_[entries_[i].keyframe] = new_slots[i];
+    entries.push_back(std::move(entries_[i]));
+  }
+  entries_ = std::move(entries);
+  for (Word& word : words_) word.slots.Renumber(new_slots);
 }
 
 void PlaceIndex::Update(const MapSnapshot& snapshot) {
@@ -72,16 +81,16 @@ std::vector<Place> PlaceIndex::Query(const Frame& frame, int max_places) const {
   const std::vector<BinaryWord> words = WordsOf(frame);
   std::vector<float> scores(entries_.size(), 0.0f);
   for (size_t i = 0; i < words.size(); ++i) {
-    if (i + kAhead < words.size()) keyframes_of_word_[words[i + kAhead]].Prefetch();
-    const PostingList& slots = keyframes_of_word_[words[i]];
-    if (slots.size() == 0) continue;
+    if (i + kAhead < words.size()) words_[words[i + kAhead]].slots.Prefetch();
+    const Word& word = words_[words[i]];
+    if (word.num_keyframes == 0) continue;
     // 0 for a word that all keyframes have
-    const float weight = static_cast<float>(std::log(num_keyframes / slots.size()));
-    slots.ForEach([weight, score = scores.data()](Slot slot) { score[slot] += weight; });
+    const float weight = static_cast<float>(std::log(num_keyframes / word.num_keyframes));
+    word.slots.ForEach([weight, score = scores.data()](Slot slot) { score[slot] += weight; });
   }
   std::vector<Place> places;
   for (size_t i = 0; i < entries_.size(); ++i) {
-    if (scores[i] <= 0.0f) continue;  // also if the slot is free
+    if (entries_[i].keyframe == kNoId || scores[i] <= 0.0f) continue;
     const double norm = std::sqrt(static_cast<double>(words.size()) * entries_[i].num_words);
     places.push_back({entries_[i].keyframe, scores[i] / norm});
   }

@@ -40,18 +40,25 @@ class PlaceIndex {
   std::vector<Place> Query(const Frame& frame, int max_places) const;
 
  private:
-  // Number of a keyframe while it is in the index.
+  // Number of a keyframe, in the order in which they were added.
   using Slot = PostingList::Slot;
   struct Entry {
-    KeyframeId keyframe = kNoId;  // kNoId: the slot is free
+    KeyframeId keyframe = kNoId;  // kNoId: it was removed
     std::shared_ptr<const Frame> frame;
     int num_words = 0;
   };
+  // Its list has the slots of removed keyframes until these are as many as the others.
+  struct Word {
+    PostingList slots;
+    int num_keyframes = 0;  // that were not removed
+  };
+
+  // Numbers the keyframes anew, without those that were removed.
+  void Compact();
 
   std::map<KeyframeId, Slot> slots_;
   std::vector<Entry> entries_;  // by slot
-  std::vector<Slot> free_slots_;
-  std::vector<PostingList> keyframes_of_word_;  // empty until the first keyframe is added
+  std::vector<Word> words_;     // empty until the first keyframe is added
 };
 
 }  // namespace msc_vo

@@ -3,26 +3,25 @@
 
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <initializer_list>
+#include <limits>
 #include <vector>
 
 namespace msc_vo {
 
-/// The keyframes that have a word: different numbers in ascending order. Each takes one byte if it
-/// exceeds the one before by less than 128, as most do if the word is frequent.
+/// The keyframes that have a word: numbers in ascending order. Each takes one byte if it exceeds
+/// the one before by less than 128, as most do if the word is frequent.
 class PostingList {
  public:
   using Slot = uint32_t;
+  static constexpr Slot kNoSlot = std::numeric_limits<Slot>::max();
 
-  int size() const { return static_cast<int>(size_); }
-
-  /// Adds a number that is not in the list. Constant time if it is the largest, otherwise linear.
-  void Insert(Slot slot);
-  /// Removes a number that is in the list. Linear time.
-  void Remove(Slot slot);
+  /// Adds a number that is larger than all in the list.
+  void Append(Slot slot);
+  /// Replaces each number by `new_slots[number]`, which must ascend, and removes it if that is
+  /// kNoSlot.
+  void Renumber(const std::vector<Slot>& new_slots);
 
   /// Lets the processor load the list, which will be read soon, into its cache.
   void Prefetch() const;
@@ -63,20 +62,8 @@ class PostingList {
     }
   }
 
-  // Where an element is in `bytes_`.
-  struct Position {
-    size_t begin = 0, end = 0;
-    Slot before = 0;  // the element before it; 0: none
-    Slot slot = 0;
-  };
-  // The first element that is not less than `slot`, which is at most `last_`.
-  Position Find(Slot slot) const;
-  // Replaces bytes by those of at most two gaps.
-  void Replace(size_t begin, size_t end, std::initializer_list<Slot> gaps);
-
-  std::vector<uint8_t> bytes_;
-  uint32_t size_ = 0;
-  Slot last_ = 0;  // the largest
+  std::vector<uint8_t> bytes_;  // the first number, and the gaps between the others
+  Slot last_ = 0;               // the largest number; 0: none
 };
 
 }  // namespace msc_vo

@@ -14,10 +14,10 @@ namespace msc_vo {
 
 namespace {
 
-// The image, reduced by the integer factor, for which averaging is fast, that makes `size` at most
-// `max_size`.
-cv::Mat Reduced(const cv::Mat& gray, int size, int max_size) {
-  const int factor = std::max(1, (size + max_size - 1) / max_size);
+// The integer factor, for which averaging is fast, that reduces `size` to at most `max_size`.
+int FactorTo(int max_size, int size) { return std::max(1, (size + max_size - 1) / max_size); }
+
+cv::Mat ReducedBy(int factor, const cv::Mat& gray) {
   if (factor == 1) return gray;
   const cv::Size reduced(std::max(1, gray.cols / factor), std::max(1, gray.rows / factor));
   const cv::Rect covered(0, 0, std::min(gray.cols, reduced.width * factor),
@@ -32,7 +32,7 @@ cv::Mat Reduced(const cv::Mat& gray, int size, int max_size) {
 std::string EncodeThumbnail(const cv::Mat& gray) {
   constexpr int kMaxWidth = 320;
   constexpr int kQuality = 60;  // percent
-  return EncodeJpeg(Reduced(gray, gray.cols, kMaxWidth), kQuality);
+  return EncodeJpeg(ReducedBy(FactorTo(kMaxWidth, gray.cols), gray), kQuality);
 }
 
 std::string EncodeMapImage(const RgbdImage& image) {
@@ -44,10 +44,10 @@ std::string EncodeMapImage(const RgbdImage& image) {
     gray = gray.clone();
     gray.setTo(0, image.mask);
   }
-  cv::Mat small = Reduced(gray, std::max(gray.cols, gray.rows), kMaxSize);
+  cv::Mat small = ReducedBy(FactorTo(kMaxSize, std::max(gray.cols, gray.rows)), gray);
   std::string jpeg = EncodeJpeg(small, kWorstQuality);
   while (jpeg.size() > kMaxBytes) {  // noise
-    small = Reduced(small, 2, 1);
+    small = ReducedBy(2, small);
     jpeg = EncodeJpeg(small, kWorstQuality);
   }
   // The best quality that fits.

@@ -12,7 +12,7 @@
 #include "msc_vo/map/path_covariance.h"
 #include "msc_vo/pose_estimation/relocalizer.h"
 #include "msc_vo/tracking/frame_pose.h"
-#include "msc_vo/tracking/place_evidence.h"
+#include "msc_vo/tracking/place_verification.h"
 #include "msc_vo/tracking/pose_support.h"
 #include "msc_vo/tracking/search_budget.h"
 
@@ -164,9 +164,9 @@ std::optional<Revisit> PlaceSearch::FindInInactiveMaps(const TrackedFrame& track
     std::optional<Revisit> found =
         Relocalize(tracked, snapshot.noise_scale, map, *map.FindKeyframe(id));
     if (!found || ContradictsSurfaces(tracked, snapshot.map, *found, map)) continue;
-    // Within a session, the motion between two maps speaks for itself (MapJoiner).
+    // Between maps of one session, MapJoiner tests the motion instead.
     const bool is_ambiguous =
-        map.IsOfEarlierSession(id) && ShowsOnePlane(*found, map, options_.min_matches);
+        map.IsOfEarlierSession(id) && IsCoplanar(*found, map, options_.min_matches);
     if (is_ambiguous) continue;
     const std::optional<Revisit> rival = FindRival(tracked, snapshot, map, *found, places);
     const bool is_certain =
@@ -183,6 +183,7 @@ std::optional<Revisit> PlaceSearch::FindRival(const TrackedFrame& tracked,
                                               const MapSnapshot& snapshot, const Map& map,
                                               const Revisit& found,
                                               const std::vector<Place>& places) const {
+  // Surfaces are not compared: something may have been moved at the right place.
   constexpr int kMaxRivals = 3;  // bounds the cost
   const std::set<KeyframeId> neighbours = NeighboursOf(found.matches, found.reference, map);
   const Rigid3 cam_from_world = found.cam_from_reference * map.CamFromWorld(found.reference);

@@ -160,6 +160,20 @@ TEST_F(MapCommandTest, ExportsFilesOfOtherPrograms) {
   EXPECT_EQ(RunCommand({"map", "info", Path("home.map"), "--output", Path("x")}).exit_code, 2);
 }
 
+TEST_F(MapCommandTest, ReplacesImagesThatWereExportedEarlier) {
+  std::filesystem::create_directories(Path("export/images"));
+  for (const std::string name : {"999999.jpg", "1.jpg", "kitchen.jpg", "000000.png"}) {
+    WriteFile(Path("export/images/" + name), "earlier");
+  }
+  ASSERT_EQ(RunCommand({"map", "export", Path("home.map"), "--output", Path("export")}).exit_code,
+            0);
+  EXPECT_FALSE(HasEntry(Path("export/images/999999.jpg")));
+  EXPECT_TRUE(HasEntry(Path("export/images/000000.jpg")));
+  EXPECT_TRUE(HasEntry(Path("export/images/1.jpg")));
+  EXPECT_TRUE(HasEntry(Path("export/images/kitchen.jpg")));
+  EXPECT_TRUE(HasEntry(Path("export/images/000000.png")));
+}
+
 TEST_F(MapCommandTest, ExtendsTheMapBySessionsThatFindThemselvesInIt) {
   const int64_t num_first = SummarizeMap(Path("home.map")).submaps[0].num_points;
   ASSERT_EQ(Replay("room", "second", {"--map", Path("home.map")}).exit_code, 0);

@@ -161,6 +161,20 @@ TEST_F(MapImagesTest, ReplacesTheImagesOfAnotherMap) {
   EXPECT_THAT(KeysOf(Images(path_)), ElementsAre(0));
 }
 
+// Numbers and time stamps of images may be the same in any two sequences.
+TEST_F(MapImagesTest, KeepsNoImagesOfASessionWithoutAName) {
+  Map map = random_.Make(3);
+  for (const char* name : {"", "room"}) {
+    MapContents contents = AsContents(map.Share());
+    contents.sessions[0].name = name;
+    SaveMap(path_, std::move(contents), EvenImages('a'));
+    contents = AsContents(map.Share());
+    contents.sessions[0].name = name;
+    SaveMap(path_, std::move(contents));
+    EXPECT_EQ(Images(path_).empty(), std::string(name).empty());
+  }
+}
+
 TEST_F(MapImagesTest, RefusesWhatIsNoSmallJpeg) {
   Map map = random_.Make(2);
   SaveMap(path_, AsContents(map.Share()), EvenImages('a'));

@@ -87,19 +87,45 @@ TEST_F(MapJoinerTest, ForgetsKeyframesThatAgreeOnAnImpossibleMotion) {
   EXPECT_EQ(joiner_.num_refused(), 1);
 }
 
-// Axes that are rotated about the y axis against those of the older map.
+// Both maps have ten lines and refined axes; those of the current map are rotated about the y axis.
 class AxesOfMapsTest : public MapJoinerTest {
  protected:
+  static constexpr int kNumLines = 10;
+
   AxesOfMapsTest() {
-    atlas_.ChangeAll([](SubMap* submap) {
-      submap->axes.Restore({Eigen::Quaterniond::Identity(), DegreesToRadians(0.2), 0.0});
+    atlas_.ChangeAll([this](SubMap* submap) {
+      SetAxes(0.0, 0.2, submap);
+      if (submap == &atlas_.current()) return;
+      AddLines(kNumLines, Eigen::Matrix3d::Identity(), 100, &submap->map);
     });
   }
-  bool JoinsWithAxes(double degrees, double sigma_degrees) {
-    const Eigen::AngleAxisd rotation(DegreesToRadians(degrees), Eigen::Vector3d::UnitY());
-    atlas_.current().axes = SceneAxes(SceneAxesOptions());
-    atlas_.current().axes.Restore(
-        {Eigen::Quaterniond(rotation), DegreesToRadians(sigma_degrees), 0.0});
+
+  static Eigen::Matrix3d Rotation(double degrees) {
+    return Eigen::AngleAxisd(DegreesToRadians(degrees), Eigen::Vector3d::UnitY())
+        .toRotationMatrix();
+  }
+  static void SetAxes(double degrees, double sigma_degrees, SubMap* submap) {
+    submap->axes = SceneAxes(SceneAxesOptions());
+    submap->axes.Restore(
+        {Eigen::Quaterniond(Rotation(degrees)), DegreesToRadians(sigma_degrees), 0.0});
+  }
+  // Adds lines, the first of which are along an axis, the others at 45 degrees to it.
+  static void AddLines(int num_along_axis, const Eigen::Matrix3d& rotation, LandmarkId first,
+                       Map* map) {
+    for (int i = 0; i < kNumLines; ++i) {
+      LineLandmark line;
+      line.id = first + i;
+      const Eigen::Vector3d direction(1.0, 0.0, i < num_along_axis ? 0.0 : 1.0);
+      line.segment = {{0.0, 0.1 * i, 2.0},
+                      Eigen::Vector3d(0.0, 0.1 * i, 2.0) + rotation * direction};
+      line.direction_sigma = DegreesToRadians(0.5);
+      map->AddExisting(line);
+    }
+  }
+  // Whether maps are joined whose axes differ by that angle.
+  bool JoinsWithAxes(double degrees, double sigma_degrees, int num_along_axes = kNumLines) {
+    SetAxes(degrees, sigma_degrees, &atlas_.current());
+    AddLines(num_along_axes, Rotation(degrees), 200, &atlas_.current().map);
     return JoinAt(4.0, 0.0).has_value();
   }
 };
@@ -112,6 +138,13 @@ TEST_F(AxesOfMapsTest, ExcludeAJoinIfTheyDiffer) {
 TEST_F(AxesOfMapsTest, MayDifferWithinTheirSigma) { EXPECT_TRUE(JoinsWithAxes(0.3, 0.2)); }
 
 TEST_F(AxesOfMapsTest, MayBeInterchanged) { EXPECT_TRUE(JoinsWithAxes(90.3, 0.2)); }
+
+// A wing of a building that has axes of its own, beside others.
+TEST_F(AxesOfMapsTest, AreIgnoredIfFewLinesFollowThem) { EXPECT_TRUE(JoinsWithAxes(10.0, 0.2, 6)); }
+
+TEST_F(AxesOfMapsTest, CountIfTwoThirdsOfTheLinesFollowThem) {
+  EXPECT_FALSE(JoinsWithAxes(10.0, 0.2, 7));
+}
 
 TEST_F(AxesOfMapsTest, AreIgnoredWhileTheyAreCoarse) { EXPECT_TRUE(JoinsWithAxes(10.0, 1.0)); }
 

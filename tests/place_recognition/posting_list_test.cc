@@ -3,9 +3,7 @@
 
 #include "msc_vo/place_recognition/posting_list.h"
 
-#include <limits>
 #include <random>
-#include <set>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -21,54 +19,43 @@ std::vector<uint32_t> ContentsOf(const PostingList& list) {
 
 PostingList ListOf(const std::vector<uint32_t>& slots) {
   PostingList list;
-  for (const uint32_t slot : slots) list.Insert(slot);
+  for (const uint32_t slot : slots) list.Append(slot);
   return list;
 }
 
-TEST(PostingList, IsAscendingInAnyOrderOfInsertion) {
-  const uint32_t largest = std::numeric_limits<uint32_t>::max();
+TEST(PostingList, HasWhatWasAppended) {
+  const uint32_t largest = PostingList::kNoSlot - 1;
   // Gaps of one to five bytes, at both sides of each limit.
   const std::vector<uint32_t> slots = {0,     1,     128,     256,     383,         512,
                                        16895, 33279, 2130431, 4227583, largest - 1, largest};
   EXPECT_EQ(ContentsOf(ListOf(slots)), slots);
-  EXPECT_EQ(ContentsOf(ListOf({slots.rbegin(), slots.rend()})), slots);
   EXPECT_THAT(ContentsOf({}), testing::IsEmpty());
 }
 
-TEST(PostingList, ForgetsWhatIsRemoved) {
-  PostingList list = ListOf({7, 300, 310, 70000});
-  list.Remove(300);
-  EXPECT_THAT(ContentsOf(list), testing::ElementsAre(7, 310, 70000));
-  list.Remove(70000);  // the last one
-  list.Insert(311);
-  EXPECT_THAT(ContentsOf(list), testing::ElementsAre(7, 310, 311));
-  list.Remove(7);
-  EXPECT_EQ(list.size(), 2);
-  list.Remove(310);
-  list.Remove(311);
-  EXPECT_EQ(list.size(), 0);
-  list.Insert(2);
-  EXPECT_THAT(ContentsOf(list), testing::ElementsAre(2));
-}
-
 // Dense lists, whose gaps are read four at a time, and sparse ones.
-TEST(PostingList, IsASet) {
+TEST(PostingList, IsRenumbered) {
   std::mt19937 random(5);
-  for (const uint32_t range : {40u, 2000u, 100000u}) {
-    std::uniform_int_distribution<uint32_t> any(0, range - 1);
-    PostingList list;
-    std::set<uint32_t> expected;
-    for (int i = 0; i < 600; ++i) {
-      const uint32_t slot = any(random);
-      if (expected.insert(slot).second) {
-        list.Insert(slot);
-      } else {
-        expected.erase(slot);
-        list.Remove(slot);
-      }
-      ASSERT_EQ(list.size(), static_cast<int>(expected.size()));
-      ASSERT_THAT(ContentsOf(list), testing::ElementsAreArray(expected));
+  for (const uint32_t max_gap : {2u, 100u, 1000u}) {
+    std::vector<uint32_t> slots;
+    for (uint32_t slot = 0; slots.size() < 300; slot += 1 + random() % max_gap) {
+      slots.push_back(slot);
     }
+    // Every third number is removed, also of those that are not in the list.
+    std::vector<uint32_t> new_slots(slots.back() + 1, PostingList::kNoSlot);
+    uint32_t next = 0;
+    for (uint32_t slot = 0; slot < new_slots.size(); ++slot) {
+      if (slot % 3 != 0) new_slots[slot] = next++;
+    }
+    std::vector<uint32_t> expected;
+    for (const uint32_t slot : slots) {
+      if (slot % 3 != 0) expected.push_back(new_slots[slot]);
+    }
+    PostingList list = ListOf(slots);
+    list.Renumber(new_slots);
+    EXPECT_EQ(ContentsOf(list), expected);
+    list.Append(next);
+    expected.push_back(next);
+    EXPECT_EQ(ContentsOf(list), expected);
   }
 }
 

@@ -43,14 +43,16 @@ Image ReadRow(const SqliteStatement& rows, const std::string& path) {
   return image;
 }
 
-// Keyframes with smaller ids belong to sessions that are the same in the file and in `sessions`.
+// Keyframes with smaller ids belong to sessions that are the same in the file and in `sessions`:
+// those without a name may be of any sequence.
 KeyframeId EndOfCommonSessions(const SqliteDatabase& database,
                                const std::vector<MapSession>& sessions) {
   SqliteStatement rows = database.Prepare("SELECT first_keyframe, name FROM session ORDER BY id");
   for (const MapSession& session : sessions) {
     if (!rows.Step()) return session.first_keyframe;
     const KeyframeId first = rows.Integer(0);
-    if (first != session.first_keyframe || rows.Bytes(1) != session.name) {
+    const bool has_same_name = !session.name.empty() && rows.Bytes(1) == session.name;
+    if (first != session.first_keyframe || !has_same_name) {
       return std::min(first, session.first_keyframe);
     }
   }
@@ -104,15 +106,16 @@ void CheckImages(const SqliteDatabase& database, const MapContents& contents) {
 void EraseOtherImages(const SqliteDatabase& database, const MapContents& contents) {
   const KeyframeId end = EndOfCommonSessions(database, contents.sessions);
   SqliteStatement rows = database.Prepare(
-      "SELECT image.keyframe, frame, timestamp FROM image LEFT JOIN features ON features.keyframe "
-      "= image.keyframe");
+      "SELECT image.keyframe, features.keyframe IS NOT NULL, frame, timestamp FROM image LEFT JOIN "
+      "features ON features.keyframe = image.keyframe");
   std::vector<KeyframeId> others;
   while (rows.Step()) {
     const KeyframeId id = rows.Integer(0);
     const Keyframe* const keyframe = FindKeyframe(contents, id);
-    const bool is_same = keyframe != nullptr && id < end &&
-                         keyframe->frame->id == rows.Integer(1) &&
-                         keyframe->frame->timestamp == rows.Real(2) && IsUndamaged(database, id);
+    const bool has_features = rows.Integer(1) != 0;
+    const bool is_same = keyframe != nullptr && id < end && has_features &&
+                         keyframe->frame->id == rows.Integer(2) &&
+                         keyframe->frame->timestamp == rows.Real(3) && IsUndamaged(database, id);
     if (!is_same) others.push_back(id);
   }
   SqliteStatement erase = database.Prepare("DELETE FROM image WHERE keyframe = ?");

@@ -28,7 +28,8 @@ std::string ReadImage(const SqliteDatabase& database, KeyframeId id);
 void CheckImages(const SqliteDatabase& database, const MapContents& contents);
 
 /// Deletes images before the map `contents` replaces another one. Those of keyframes that both
-/// maps have are left: keyframes of the same session, number of the image and time stamp.
+/// maps have are left: keyframes of the same session, which has a name, with the same number and
+/// time stamp of the image.
 void EraseOtherImages(const SqliteDatabase& database, const MapContents& contents);
 
 }  // namespace msc_vo

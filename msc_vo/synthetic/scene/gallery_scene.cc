@@ -62,7 +62,7 @@ std::vector<Step> VisitorSteps() {
 
 Scene MakeGallery(uint64_t seed, const WalkOptions& walk) {
   const Scene exhibit = seed % 2 == 1 ? MakeBoard(seed) : MakeFurniture(seed);
-  const int visited = walk.returns ? 0 : static_cast<int>((walk.path - 1) % kNumHalls);
+  const int visited = static_cast<int>((walk.path - 1) % kNumHalls);
   TourWriter writer(seed, walk);
   Random random(seed, 100);
   Scene scene = MakeLookAlikeShell();

@@ -77,7 +77,7 @@ std::optional<SceneKind> SceneKindFromName(const std::string& name) {
 
 bool HasLookAlikes(SceneKind kind) {
   return kind == SceneKind::kRooms || kind == SceneKind::kMirrored || kind == SceneKind::kFloors ||
-         kind == SceneKind::kDesks || kind == SceneKind::kGallery;
+         kind == SceneKind::kDesks;
 }
 
 namespace {
@@ -122,7 +122,7 @@ Scene MakeWithTour(SceneKind kind, uint64_t seed, const WalkOptions& walk) {
 
 Scene MakeScene(SceneKind kind, uint64_t seed, const WalkOptions& walk) {
   Scene scene = MakeWithTour(kind, seed, walk);
-  if (!HasLookAlikes(kind) && walk.path != 1) scene.tour = OtherTour(scene, seed, walk.path);
+  if (scene.tour_is_loop && walk.path != 1) scene.tour = OtherTour(scene, seed, walk.path);
   return scene;
 }
 

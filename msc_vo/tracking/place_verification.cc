@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/tracking/place_evidence.h"
+#include "msc_vo/tracking/place_verification.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,57 +16,58 @@ namespace msc_vo {
 
 namespace {
 
-using Places = std::vector<Eigen::Vector3d>;  // metres, world
+using Positions = std::vector<Eigen::Vector3d>;  // of landmarks, metres, world
 
-Places MatchedPlaces(const FrameMatches& matches, const Map& map) {
-  Places places;
+Positions MatchedPositions(const FrameMatches& matches, const Map& map) {
+  Positions positions;
   ForEachLandmarkKind([&](auto kind) {
     using L = typename decltype(kind)::Landmark;
     for (const auto& match : OfKind<L>(matches)) {
-      if (const L* landmark = map.Find<L>(match.id)) places.push_back(landmark->Center());
+      if (const L* landmark = map.Find<L>(match.id)) positions.push_back(landmark->Center());
     }
   });
-  return places;
+  return positions;
 }
 
-// Whether a place is not in a plane, to 3 % of its distance from the camera.
-bool IsBeside(const Plane& plane, const Eigen::Vector3d& camera, const Eigen::Vector3d& place) {
-  constexpr double kTolerance = 0.03;
-  return std::abs(plane.normal().dot(place) + plane.offset()) >
-         kTolerance * (place - camera).norm();
+bool IsOffPlane(const Plane& plane, const Eigen::Vector3d& camera,
+                const Eigen::Vector3d& position) {
+  constexpr double kTolerance = 0.03;  // relative to the distance from the camera
+  return std::abs(plane.normal().dot(position) + plane.offset()) >
+         kTolerance * (position - camera).norm();
 }
 
-int NumBeside(const Plane& plane, const Eigen::Vector3d& camera, const Places& places) {
-  return static_cast<int>(
-      std::count_if(places.begin(), places.end(),
-                    [&](const Eigen::Vector3d& place) { return IsBeside(plane, camera, place); }));
+int NumOffPlane(const Plane& plane, const Eigen::Vector3d& camera, const Positions& positions) {
+  const auto is_off = [&](const Eigen::Vector3d& x) { return IsOffPlane(plane, camera, x); };
+  return static_cast<int>(std::count_if(positions.begin(), positions.end(), is_off));
 }
 
-// Whether a map has at least `num` landmarks beside a plane.
+// Whether a map has at least `num` landmarks off a plane.
 bool ExtendsBeyond(const Plane& plane, const Eigen::Vector3d& camera, const Map& map, int num) {
-  int num_beside = 0;
+  int num_off = 0;
   ForEachLandmarkKind([&](auto kind) {
     for (const auto& [id, landmark] : map.landmarks<typename decltype(kind)::Landmark>()) {
-      if (num_beside >= num) return;
-      if (IsBeside(plane, camera, landmark.Center())) ++num_beside;
+      if (num_off >= num) return;
+      if (IsOffPlane(plane, camera, landmark.Center())) ++num_off;
     }
   });
-  return num_beside >= num;
+  return num_off >= num;
 }
 
-// The plane through three of the places that contains most of them. Not empty.
-Plane DominantPlane(const Places& places, const Eigen::Vector3d& camera) {
-  constexpr int kNumTrials = 20;  // a plane with nearly all places is hardly missed by one
+// The plane through three of the positions that has the fewest of them off it. Not empty.
+Plane DominantPlane(const Positions& positions, const Eigen::Vector3d& camera) {
+  constexpr int kNumTrials = 20;  // one is nearly enough if nearly all are coplanar
   std::mt19937 random(1);
-  const auto draw = [&]() -> const Eigen::Vector3d& { return places[random() % places.size()]; };
+  const auto draw = [&]() -> const Eigen::Vector3d& {
+    return positions[random() % positions.size()];
+  };
   Plane best;
-  int least = static_cast<int>(places.size()) + 1;
+  int least = static_cast<int>(positions.size()) + 1;
   for (int trial = 0; trial < kNumTrials; ++trial) {
     const Eigen::Vector3d &a = draw(), &b = draw(), &c = draw();
     const Eigen::Vector3d normal = (b - a).cross(c - a).normalized();
-    if (!(normal.norm() > 0.0)) continue;  // on one line
+    if (!(normal.norm() > 0.0)) continue;  // collinear
     const Plane plane(normal, -normal.dot(a));
-    const int num = NumBeside(plane, camera, places);
+    const int num = NumOffPlane(plane, camera, positions);
     if (num < least) {
       least = num;
       best = plane;
@@ -94,30 +95,31 @@ void AppendViewsAround(const Map& map, KeyframeId reference, std::vector<View>* 
   }
 }
 
-// How much two views differ: the angle between them, and their distance in typical distances of
-// surfaces.
+// Orders views by their similarity: the angle between them, and their distance relative to that of
+// surfaces in a room.
 double Difference(const View& a, const View& b) {
-  constexpr double kDistance = 2.0;  // metres
+  constexpr double kSurfaceDistance = 2.0;  // metres
   const Rigid3 b_from_a = b.cam_from_world * a.cam_from_world.Inverse();
-  return LogSO3(b_from_a.rotation()).norm() + b_from_a.translation().norm() / kDistance;
+  return LogSO3(b_from_a.rotation()).norm() + b_from_a.translation().norm() / kSurfaceDistance;
 }
 
 }  // namespace
 
-bool ShowsOnePlane(const Revisit& found, const Map& map, int min_matches) {
-  const Places places = MatchedPlaces(found.matches, map);
-  if (places.empty()) return false;
+bool IsCoplanar(const Revisit& found, const Map& map, int min_matches) {
+  const Positions positions = MatchedPositions(found.matches, map);
+  if (positions.empty()) return false;
   const Rigid3 cam_from_world = found.cam_from_reference * map.CamFromWorld(found.reference);
   const Eigen::Vector3d camera = cam_from_world.OriginInSource();
-  const Plane plane = DominantPlane(places, camera);
-  return NumBeside(plane, camera, places) < min_matches &&
+  const Plane plane = DominantPlane(positions, camera);
+  return NumOffPlane(plane, camera, positions) < min_matches &&
          ExtendsBeyond(plane, camera, map, min_matches);
 }
 
 bool ContradictsSurfaces(const TrackedFrame& tracked, const Map& own, const Revisit& found,
                          const Map& map) {
-  // Twice the largest ratio of true revisits (docs/lab/loops.md).
+  // Twice the largest ratio of true revisits, in both directions (docs/lab/loops.md).
   constexpr double kMaxRatio = 0.01;
+  constexpr int kMinViolations = 10;  // of some 600 cells of an image
   std::vector<View> views{{tracked.frame.get(), tracked.cam_from_world}}, place;
   if (own.FindKeyframe(tracked.reference) != nullptr) {
     AppendViewsAround(own, tracked.reference, &views);
@@ -136,7 +138,8 @@ bool ContradictsSurfaces(const TrackedFrame& tracked, const Map& own, const Revi
     sum.num_same += agreement.num_same;
     sum.num_violations += agreement.num_violations;
   }
-  return sum.num_violations > kMaxRatio * (sum.num_same + sum.num_violations);
+  return sum.num_violations >= kMinViolations &&
+         sum.num_violations > kMaxRatio * (sum.num_same + sum.num_violations);
 }
 
 }  // namespace msc_vo

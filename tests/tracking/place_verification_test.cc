@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/tracking/place_evidence.h"
+#include "msc_vo/tracking/place_verification.h"
 
 #include <memory>
 
@@ -16,10 +16,10 @@ constexpr KeyframeId kPlace = 100;
 constexpr int kMinMatches = 10;
 
 // A camera that is where keyframe kPlace of another map is, and matches all of its landmarks.
-class PlaceEvidenceTest : public testing::Test {
+class PlaceVerificationTest : public testing::Test {
  protected:
-  PlaceEvidenceTest() : PlaceEvidenceTest(std::make_shared<Frame>()) {}
-  explicit PlaceEvidenceTest(const std::shared_ptr<const Frame>& frame) {
+  PlaceVerificationTest() : PlaceVerificationTest(std::make_shared<Frame>()) {}
+  explicit PlaceVerificationTest(const std::shared_ptr<const Frame>& frame) {
     own_ = MapOfOneKeyframe(frame, Rigid3());
     tracked_.frame = frame;
     tracked_.reference = 0;
@@ -40,7 +40,7 @@ class PlaceEvidenceTest : public testing::Test {
 };
 
 // The first landmarks of the place are on a wall at 2 m, the others in front of it.
-class ShowsOnePlaneTest : public PlaceEvidenceTest {
+class IsCoplanarTest : public PlaceVerificationTest {
  protected:
   void AddLandmarks(int num_on_wall, int num_others, bool is_matched) {
     auto frame = std::make_shared<Frame>();
@@ -53,35 +53,35 @@ class ShowsOnePlaneTest : public PlaceEvidenceTest {
       if (is_matched) found_.matches.points.push_back({i, id});
     }
   }
-  bool ShowsOnePlane() const { return msc_vo::ShowsOnePlane(found_, place_.map, kMinMatches); }
+  bool IsCoplanar() const { return msc_vo::IsCoplanar(found_, place_.map, kMinMatches); }
 };
 
-TEST_F(ShowsOnePlaneTest, IfTooFewMatchesAreBesideThePlane) {
+TEST_F(IsCoplanarTest, IfTooFewMatchesAreOffThePlane) {
   AddLandmarks(100, kMinMatches - 1, true);
   AddLandmarks(0, 30, false);
-  EXPECT_TRUE(ShowsOnePlane());
+  EXPECT_TRUE(IsCoplanar());
 }
 
-TEST_F(ShowsOnePlaneTest, NotIfEnoughMatchesAreBesideThePlane) {
+TEST_F(IsCoplanarTest, NotIfEnoughMatchesAreOffThePlane) {
   AddLandmarks(100, 4 * kMinMatches, true);
-  EXPECT_FALSE(ShowsOnePlane());
+  EXPECT_FALSE(IsCoplanar());
 }
 
 // A floor is all that this map has.
-TEST_F(ShowsOnePlaneTest, NotIfTheMapIsOnePlane) {
+TEST_F(IsCoplanarTest, NotIfTheMapIsOnePlane) {
   AddLandmarks(100, 0, true);
   AddLandmarks(50, kMinMatches - 1, false);
-  EXPECT_FALSE(ShowsOnePlane());
+  EXPECT_FALSE(IsCoplanar());
 }
 
-TEST_F(ShowsOnePlaneTest, NotWithoutMatches) {
+TEST_F(IsCoplanarTest, NotWithoutMatches) {
   AddLandmarks(0, 30, false);
-  EXPECT_FALSE(ShowsOnePlane());
+  EXPECT_FALSE(IsCoplanar());
 }
 
-class ContradictsSurfacesTest : public PlaceEvidenceTest {
+class ContradictsSurfacesTest : public PlaceVerificationTest {
  protected:
-  ContradictsSurfacesTest() : PlaceEvidenceTest(FrameAtWall(2.0)) {}
+  ContradictsSurfacesTest() : PlaceVerificationTest(FrameAtWall(2.0)) {}
   bool Contradicts() const { return ContradictsSurfaces(tracked_, own_.map, found_, place_.map); }
   // The wall of the place is at a distance of that many metres.
   void MovePlace(double distance) {
@@ -103,6 +103,22 @@ TEST_F(ContradictsSurfacesTest, WhereTheCameraLooksThroughAWall) {
 // It may be behind something that was not there before.
 TEST_F(ContradictsSurfacesTest, NotWhereTheWallMayBeHidden) {
   MovePlace(3.0);
+  EXPECT_FALSE(Contradicts());
+}
+
+// A frame with depth in a few cells of its corner, in which nine cells of the place can be looked
+// through.
+TEST_F(ContradictsSurfacesTest, NotByAFewCells) {
+  auto few = std::make_shared<Frame>();
+  few->depth_ranges.cells.resize(DepthRanges::kColumns * DepthRanges::kRows);
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      few->depth_ranges.cells[row * DepthRanges::kColumns + column] = {0.5f, 0.5f};
+    }
+  }
+  tracked_.frame = few;
+  own_ = MapOfOneKeyframe(std::make_shared<Frame>(), Rigid3());
+  MovePlace(1.5);
   EXPECT_FALSE(Contradicts());
 }
 
