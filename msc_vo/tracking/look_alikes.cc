@@ -44,9 +44,9 @@ LocalMap UnoccludedLandmarks(const Map& map, const Frame& frame, const Rigid3& c
   return local;
 }
 
-// Numbers of landmarks that should be visible from a pose, and that are matched.
+// Numbers of landmarks that the frame can match at a pose, and that it matches.
 struct PlaceEvidence {
-  int num_visible = 0;
+  int num_matchable = 0;
   int num_matched = 0;
 };
 
@@ -57,7 +57,8 @@ PlaceEvidence EvidenceAt(const TrackerOptions& options, const Frame& frame, cons
   PoseEstimator estimator(options, map, noise_scale, no_factors);
   const std::optional<FramePose> pose = estimator.MatchAndEstimate(
       options.pose, frame, local, options.prediction_radius, cam_from_world);
-  return {Sum(SizesOf(local)), pose ? Sum(SizesOf(LandmarkInliers(pose->matches))) : 0};
+  return {NumMatchable(SizesOf(local), frame),
+          pose ? Sum(SizesOf(LandmarkInliers(pose->matches))) : 0};
 }
 
 // Whether a frame can be at a place.
@@ -71,11 +72,11 @@ PlaceStatus ClassifyPlace(const PlaceEvidence& place, const PlaceEvidence& found
   // Relative to the place that was found: with fewer landmarks in view, the map does not show most
   // of what the frame shows, so that missing matches prove nothing.
   constexpr double kMinCoverage = 0.5;
-  if (place.num_visible == 0 || place.num_visible < kMinCoverage * found.num_visible) {
+  if (place.num_matchable == 0 || place.num_matchable < kMinCoverage * found.num_matchable) {
     return PlaceStatus::kUnknown;
   }
-  const bool is_excluded = static_cast<double>(place.num_matched) * found.num_visible <
-                           kMinRelativeMatchRatio * found.num_matched * place.num_visible;
+  const bool is_excluded = static_cast<double>(place.num_matched) * found.num_matchable <
+                           kMinRelativeMatchRatio * found.num_matched * place.num_matchable;
   return is_excluded ? PlaceStatus::kExcluded : PlaceStatus::kPossible;
 }
 

@@ -42,12 +42,21 @@ bool IsClearlyBetter(const TrackerOptions& options, const PoseSummary& far,
   return Support(far) > kClearlyBetter * (Support(near) + near.num_dynamic);
 }
 
+int NumMatchable(const PerKind<int>& in_view, const Frame& frame) {
+  int num = 0;
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    num += std::min(in_view.Of<L>(), static_cast<int>(FeaturesOf<L>(frame).size()));
+  });
+  return num;
+}
+
 bool HasComparableMatchRatio(const FrameMatches& found, const LocalMap& place,
                              const TrackedFrame& tracked) {
-  const double in_view = Sum(SizesOf(place));
-  const double in_view_now = Sum(SizesOf(tracked.visible));
-  return Sum(SizesOf(found)) * in_view_now >=
-         kMinRelativeMatchRatio * Sum(SizesOf(tracked.matches)) * in_view;
+  const double matchable = NumMatchable(SizesOf(place), *tracked.frame);
+  const double matchable_now = NumMatchable(SizesOf(tracked.visible), *tracked.frame);
+  return Sum(SizesOf(found)) * matchable_now >=
+         kMinRelativeMatchRatio * Sum(SizesOf(tracked.matches)) * matchable;
 }
 
 bool ContradictsDepth(const TrackedFrame& tracked, const Map& map) {

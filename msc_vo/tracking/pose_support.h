@@ -20,12 +20,16 @@ bool IsClear(const FramePose& pose, const LocalMap& candidates);
 bool IsClearlyBetter(const TrackerOptions& options, const PoseSummary& far,
                      const PoseSummary& near);
 
-/// Smallest ratio of matched to visible landmarks at a place, relative to the ratio at the place
+/// How many of so many landmarks `in_view` a frame can match: each feature matches one at most, and
+/// a map of several visits has more landmarks than a frame has features.
+int NumMatchable(const PerKind<int>& in_view, const Frame& frame);
+
+/// Smallest ratio of matched to matchable landmarks at a place, relative to the ratio at the place
 /// that it is compared with: the same place may be seen from another direction.
 constexpr double kMinRelativeMatchRatio = 0.5;
 
-/// Whether the ratio of the inliers `found` to the landmarks in view at `place` is at least half of
-/// the same ratio in the current map, where the frame is `tracked`. At another place that looks
+/// Whether the ratio of the inliers `found` to the matchable landmarks at `place` is at least half
+/// of the same ratio in the current map, where the frame is `tracked`. At another place that looks
 /// alike it is lower (docs/lab/tracking.md).
 bool HasComparableMatchRatio(const FrameMatches& found, const LocalMap& place,
                              const TrackedFrame& tracked);

@@ -10,9 +10,14 @@
 namespace msc_vo {
 namespace {
 
-// A frame that shows 40 of 100 landmarks of the current map, a quarter of them lines.
+// A frame with 80 points and 20 lines that shows 40 of 100 landmarks of the current map, a quarter
+// of them lines.
 TrackedFrame FrameInCurrentMap() {
+  auto frame = std::make_shared<Frame>();
+  frame->points.resize(80);
+  frame->lines.resize(20);
   TrackedFrame tracked;
+  tracked.frame = frame;
   tracked.matches.points.resize(30);
   tracked.matches.lines.resize(10);
   tracked.visible.points.resize(80);
@@ -20,21 +25,27 @@ TrackedFrame FrameInCurrentMap() {
   return tracked;
 }
 
-// Whether `num_found` of 200 landmarks are enough.
-bool HasComparableMatchRatioWith(size_t num_found) {
+// Whether `num_found` landmarks are enough at a place where so many are in view.
+bool HasComparableMatchRatioWith(size_t num_found, size_t num_points, size_t num_lines) {
   FrameMatches found;
-  found.points.resize(num_found - 10);
-  found.lines.resize(10);
+  found.points.resize(num_found - 5);
+  found.lines.resize(5);
   LocalMap place;
-  place.points.resize(150);
-  place.lines.resize(50);
+  place.points.resize(num_points);
+  place.lines.resize(num_lines);
   return HasComparableMatchRatio(found, place, FrameInCurrentMap());
 }
 
 TEST(HasComparableMatchRatio, RequiresHalfOfTheRatioInTheCurrentMap) {
-  EXPECT_TRUE(HasComparableMatchRatioWith(80));
-  EXPECT_TRUE(HasComparableMatchRatioWith(40));
-  EXPECT_FALSE(HasComparableMatchRatioWith(39));
+  EXPECT_TRUE(HasComparableMatchRatioWith(20, 40, 10));
+  EXPECT_TRUE(HasComparableMatchRatioWith(10, 40, 10));
+  EXPECT_FALSE(HasComparableMatchRatioWith(9, 40, 10));
+}
+
+// A map of many visits, of which the frame can match 100 landmarks.
+TEST(HasComparableMatchRatio, CountsNoMoreLandmarksThanFeatures) {
+  EXPECT_TRUE(HasComparableMatchRatioWith(20, 800, 200));
+  EXPECT_FALSE(HasComparableMatchRatioWith(19, 800, 200));
 }
 
 std::shared_ptr<Frame> FrameAtWall(double distance) {
