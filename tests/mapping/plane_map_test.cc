@@ -193,8 +193,9 @@ TEST_F(PlaneExtentsTest, GrowByWhatKeyframesShow) {
   AddPatch(-0.2, 1.3);
   ASSERT_EQ(Planes().size(), 1u);
   EXPECT_NEAR(Width(Planes()[0]), 2.3, 1e-9);
-  EXPECT_EQ(Planes()[0].extent.size(), 4u);
-  for (const Eigen::Vector3d& vertex : Planes()[0].extent) EXPECT_NEAR(vertex.z(), 2.0, 1e-9);
+  const PlaneLandmark plane = Planes()[0];
+  EXPECT_EQ(plane.extent.size(), 4u);
+  for (const Eigen::Vector3d& vertex : plane.extent) EXPECT_NEAR(vertex.z(), 2.0, 1e-9);
 }
 
 // A keyframe whose pose is wrong takes a wall for another one. When a better one sees both parts,

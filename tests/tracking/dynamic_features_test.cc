@@ -110,7 +110,8 @@ class FreeSpaceTest : public ::testing::Test {
   }
   std::vector<bool> Marks() const {
     std::vector<bool> marks;
-    for (const PointFeature& point : MarkDynamicFeatures({}, map_, tracked_)->points) {
+    const auto frame = MarkDynamicFeatures({}, map_, tracked_);
+    for (const PointFeature& point : frame->points) {
       marks.push_back(point.dynamic);
     }
     return marks;
