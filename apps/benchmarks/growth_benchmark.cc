@@ -125,6 +125,23 @@ void PlaceQuery(benchmark::State& state) {
   }
 }
 
+// Adds a keyframe and removes the oldest one.
+void PlaceReplacement(benchmark::State& state) {
+  const KeyframeId num_keyframes = state.range(0);
+  std::mt19937 random(1);
+  PlaceIndex index;
+  KeyframeId next = 0;
+  while (next < num_keyframes) index.Add(next++, RandomFrame(&random));
+  for (auto _ : state) {
+    state.PauseTiming();
+    std::shared_ptr<const Frame> frame = RandomFrame(&random);
+    state.ResumeTiming();
+    index.Add(next, std::move(frame));
+    index.Remove(next - num_keyframes);
+    ++next;
+  }
+}
+
 // A path around a circle that drifts, links to the three keyframes before each one, and one loop
 // where it closes.
 PoseGraph MakeGraph(int num_keyframes) {
@@ -197,6 +214,9 @@ void Sizes(benchmark::internal::Benchmark* benchmark) {
 }
 BENCHMARK(Memory)->Apply(Sizes)->Iterations(1);
 BENCHMARK(PlaceQuery)->Apply(Sizes);
+// With renumbering, which happens once in as many replacements as there are keyframes.
+BENCHMARK(PlaceReplacement)->Arg(1000)->Iterations(2000)->Unit(benchmark::kMillisecond);
+BENCHMARK(PlaceReplacement)->Arg(10000)->Iterations(20000)->Unit(benchmark::kMillisecond);
 BENCHMARK(OneLoop)->Apply(Sizes);
 BENCHMARK(SaveFile)->Apply(Sizes);
 BENCHMARK(LoadFile)->Apply(Sizes);
