@@ -44,21 +44,15 @@ LocalMap UnoccludedLandmarks(const Map& map, const Frame& frame, const Rigid3& c
   return local;
 }
 
-// Numbers of landmarks that the frame can match at a pose, and that it matches.
-struct PlaceEvidence {
-  int num_matchable = 0;
-  int num_matched = 0;
-};
-
-PlaceEvidence EvidenceAt(const TrackerOptions& options, const Frame& frame, const Map& map,
-                         const NoiseScale& noise_scale, const Rigid3& cam_from_world) {
+MatchCounts CountMatchesAt(const TrackerOptions& options, const Frame& frame, const Map& map,
+                           const NoiseScale& noise_scale, const Rigid3& cam_from_world) {
   const LocalMap local = UnoccludedLandmarks(map, frame, cam_from_world);
   const std::vector<PoseFactor> no_factors;
   PoseEstimator estimator(options, map, noise_scale, no_factors);
   const std::optional<FramePose> pose = estimator.MatchAndEstimate(
       options.pose, frame, local, options.prediction_radius, cam_from_world);
-  return {NumMatchable(SizesOf(local), frame),
-          pose ? Sum(SizesOf(LandmarkInliers(pose->matches))) : 0};
+  return CountMatches(frame, SizesOf(local),
+                      pose ? LandmarkInliers(pose->matches) : FrameMatches());
 }
 
 // Whether a frame can be at a place.
@@ -68,16 +62,14 @@ enum class PlaceStatus {
   kExcluded,  // the frame does not match the map there
 };
 
-PlaceStatus ClassifyPlace(const PlaceEvidence& place, const PlaceEvidence& found) {
+PlaceStatus ClassifyPlace(const MatchCounts& place, const MatchCounts& found) {
   // Relative to the place that was found: with fewer landmarks in view, the map does not show most
   // of what the frame shows, so that missing matches prove nothing.
   constexpr double kMinCoverage = 0.5;
   if (place.num_matchable == 0 || place.num_matchable < kMinCoverage * found.num_matchable) {
     return PlaceStatus::kUnknown;
   }
-  const bool is_excluded = static_cast<double>(place.num_matched) * found.num_matchable <
-                           kMinRelativeMatchRatio * found.num_matched * place.num_matchable;
-  return is_excluded ? PlaceStatus::kExcluded : PlaceStatus::kPossible;
+  return HasComparableMatchRatio(place, found) ? PlaceStatus::kPossible : PlaceStatus::kExcluded;
 }
 
 }  // namespace
@@ -98,23 +90,23 @@ bool LookAlikes::AreExcluded(const TrackerOptions& options, const TrackedFrame& 
   if (!snapshot.map.KnowsKeyframe(tracked.reference)) return alignments_.empty();
   if (static_cast<int>(alignments_.size()) == kMaxAlignments) return false;  // there may be more
   const Rigid3 found_from_world = found.cam_from_reference * map.CamFromWorld(found.reference);
-  const auto evidence_at = [&](const Rigid3& cam_from_world) {
-    return EvidenceAt(options, *tracked.frame, map, snapshot.noise_scale, cam_from_world);
+  const auto counts_at = [&](const Rigid3& cam_from_world) {
+    return CountMatchesAt(options, *tracked.frame, map, snapshot.noise_scale, cam_from_world);
   };
   const std::vector<bool> same = AreSame(tracked, snapshot, map, found);
-  std::optional<PlaceEvidence> at_found;
+  std::optional<MatchCounts> at_found;
   for (size_t i = 0; i < alignments_.size(); ++i) {
     const Alignment& alignment = alignments_[i];
     if (same[i] || !map.KnowsKeyframe(alignment.other)) continue;
-    if (!at_found) at_found = evidence_at(found_from_world);
+    if (!at_found) at_found = counts_at(found_from_world);
     const Rigid3 aligned_from_world = PoseBy(alignment, tracked, snapshot.map, map);
-    const PlaceStatus status = ClassifyPlace(evidence_at(aligned_from_world), *at_found);
+    const PlaceStatus status = ClassifyPlace(counts_at(aligned_from_world), *at_found);
     if (status == PlaceStatus::kExcluded) continue;
     if (status == PlaceStatus::kPossible) return false;
     // In a row of look-alikes, the place that was found has a copy on its other side, too.
     const Rigid3 opposite_from_world =
         found_from_world * aligned_from_world.Inverse() * found_from_world;
-    const PlaceStatus opposite = ClassifyPlace(evidence_at(opposite_from_world), *at_found);
+    const PlaceStatus opposite = ClassifyPlace(counts_at(opposite_from_world), *at_found);
     if (opposite != PlaceStatus::kExcluded) return false;
   }
   return true;

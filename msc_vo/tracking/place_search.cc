@@ -183,7 +183,8 @@ std::optional<Revisit> PlaceSearch::FindRival(const TrackedFrame& tracked,
                                               const MapSnapshot& snapshot, const Map& map,
                                               const Revisit& found,
                                               const std::vector<Place>& places) const {
-  // Surfaces are not compared: something may have been moved at the right place.
+  // A rival whose surfaces contradict the frame still counts: it may be the right place, in which
+  // something was moved.
   constexpr int kMaxRivals = 3;  // bounds the cost
   const std::set<KeyframeId> neighbours = NeighboursOf(found.matches, found.reference, map);
   const Rigid3 cam_from_world = found.cam_from_reference * map.CamFromWorld(found.reference);
@@ -249,7 +250,9 @@ std::optional<Revisit> PlaceSearch::Relocalize(const TrackedFrame& tracked,
     return std::nullopt;
   }
   const FrameMatches matches = LandmarkInliers(pose->matches);
-  if (!HasComparableMatchRatio(matches, local, tracked)) return std::nullopt;
+  const MatchCounts at_place = CountMatches(frame, SizesOf(local), matches);
+  const MatchCounts in_own_map = CountMatches(frame, SizesOf(tracked.visible), tracked.matches);
+  if (!HasComparableMatchRatio(at_place, in_own_map)) return std::nullopt;
   return Revisit{local.reference,
                  pose->cam_from_world * map.CamFromWorld(local.reference).Inverse(),
                  pose->summary.covariance, matches};

@@ -31,7 +31,8 @@ Positions MatchedPositions(const FrameMatches& matches, const Map& map) {
 
 bool IsOffPlane(const Plane& plane, const Eigen::Vector3d& camera,
                 const Eigen::Vector3d& position) {
-  constexpr double kTolerance = 0.03;  // relative to the distance from the camera
+  // Relative to the distance from the camera: three sigmas of depth (2e-3 1/m) at 5 m.
+  constexpr double kTolerance = 0.03;
   return std::abs(plane.normal().dot(position) + plane.offset()) >
          kTolerance * (position - camera).norm();
 }
@@ -119,7 +120,7 @@ bool ContradictsSurfaces(const TrackedFrame& tracked, const Map& own, const Revi
                          const Map& map) {
   // Twice the largest ratio of true revisits, in both directions (docs/lab/loops.md).
   constexpr double kMaxRatio = 0.01;
-  constexpr int kMinViolations = 10;  // of some 600 cells of an image
+  constexpr int kMinViolations = 10;  // about 1 % of the cells of an image
   std::vector<View> views{{tracked.frame.get(), tracked.cam_from_world}}, place;
   if (own.FindKeyframe(tracked.reference) != nullptr) {
     AppendViewsAround(own, tracked.reference, &views);

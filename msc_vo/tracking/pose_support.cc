@@ -42,21 +42,22 @@ bool IsClearlyBetter(const TrackerOptions& options, const PoseSummary& far,
   return Support(far) > kClearlyBetter * (Support(near) + near.num_dynamic);
 }
 
-int NumMatchable(const PerKind<int>& in_view, const Frame& frame) {
-  int num = 0;
+MatchCounts CountMatches(const Frame& frame, const PerKind<int>& in_view,
+                         const FrameMatches& matches) {
+  MatchCounts counts;
   ForEachLandmarkKind([&](auto kind) {
     using L = typename decltype(kind)::Landmark;
-    num += std::min(in_view.Of<L>(), static_cast<int>(FeaturesOf<L>(frame).size()));
+    const int num_features = static_cast<int>(FeaturesOf<L>(frame).size());
+    counts.num_matchable += std::min(in_view.Of<L>(), num_features);
   });
-  return num;
+  counts.num_matched = Sum(SizesOf(matches));
+  return counts;
 }
 
-bool HasComparableMatchRatio(const FrameMatches& found, const LocalMap& place,
-                             const TrackedFrame& tracked) {
-  const double matchable = NumMatchable(SizesOf(place), *tracked.frame);
-  const double matchable_now = NumMatchable(SizesOf(tracked.visible), *tracked.frame);
-  return Sum(SizesOf(found)) * matchable_now >=
-         kMinRelativeMatchRatio * Sum(SizesOf(tracked.matches)) * matchable;
+bool HasComparableMatchRatio(const MatchCounts& place, const MatchCounts& other) {
+  constexpr double kMinRelativeRatio = 0.5;
+  return static_cast<double>(place.num_matched) * other.num_matchable >=
+         kMinRelativeRatio * other.num_matched * place.num_matchable;
 }
 
 bool ContradictsDepth(const TrackedFrame& tracked, const Map& map) {

@@ -20,19 +20,22 @@ bool IsClear(const FramePose& pose, const LocalMap& candidates);
 bool IsClearlyBetter(const TrackerOptions& options, const PoseSummary& far,
                      const PoseSummary& near);
 
-/// How many of so many landmarks `in_view` a frame can match: each feature matches one at most, and
-/// a map of several visits has more landmarks than a frame has features.
-int NumMatchable(const PerKind<int>& in_view, const Frame& frame);
+/// Landmarks of a map in view of a frame.
+struct MatchCounts {
+  /// That the frame can match: of each kind at most as many as it has features, of which a map of
+  /// several visits has more.
+  int num_matchable = 0;
+  int num_matched = 0;
+};
 
-/// Smallest ratio of matched to matchable landmarks at a place, relative to the ratio at the place
-/// that it is compared with: the same place may be seen from another direction.
-constexpr double kMinRelativeMatchRatio = 0.5;
+/// `in_view`: numbers of landmarks in view. `matches`: inliers.
+MatchCounts CountMatches(const Frame& frame, const PerKind<int>& in_view,
+                         const FrameMatches& matches);
 
-/// Whether the ratio of the inliers `found` to the matchable landmarks at `place` is at least half
-/// of the same ratio in the current map, where the frame is `tracked`. At another place that looks
-/// alike it is lower (docs/lab/tracking.md).
-bool HasComparableMatchRatio(const FrameMatches& found, const LocalMap& place,
-                             const TrackedFrame& tracked);
+/// Whether the ratio of matched to matchable landmarks at a place is at least half of that at
+/// another place: the same place, seen from another direction, has a lower ratio, and one that
+/// looks alike a ratio that is lower still (docs/lab/tracking.md).
+bool HasComparableMatchRatio(const MatchCounts& place, const MatchCounts& other);
 
 /// Whether the depth images of the frame and of its reference keyframe contradict its pose in more
 /// cells (NumFreeSpaceViolations) than its Support.

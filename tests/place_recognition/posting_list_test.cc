@@ -40,7 +40,7 @@ TEST(PostingList, IsRenumbered) {
     for (uint32_t slot = 0; slots.size() < 300; slot += 1 + random() % max_gap) {
       slots.push_back(slot);
     }
-    // Every third number is removed, also of those that are not in the list.
+    // Multiples of three are removed.
     std::vector<uint32_t> new_slots(slots.back() + 1, PostingList::kNoSlot);
     uint32_t next = 0;
     for (uint32_t slot = 0; slot < new_slots.size(); ++slot) {

@@ -10,42 +10,28 @@
 namespace msc_vo {
 namespace {
 
-// A frame with 80 points and 20 lines that shows 40 of 100 landmarks of the current map, a quarter
-// of them lines.
-TrackedFrame FrameInCurrentMap() {
-  auto frame = std::make_shared<Frame>();
-  frame->points.resize(80);
-  frame->lines.resize(20);
-  TrackedFrame tracked;
-  tracked.frame = frame;
-  tracked.matches.points.resize(30);
-  tracked.matches.lines.resize(10);
-  tracked.visible.points.resize(80);
-  tracked.visible.lines.resize(20);
-  return tracked;
+TEST(CountMatches, CountsNoMoreLandmarksOfAKindThanFeatures) {
+  Frame frame;
+  frame.points.resize(80);
+  frame.lines.resize(20);
+  FrameMatches matches;
+  matches.points.resize(30);
+  matches.lines.resize(10);
+  const auto num_matchable = [&](const PerKind<int>& in_view) {
+    const MatchCounts counts = CountMatches(frame, in_view, matches);
+    EXPECT_EQ(counts.num_matched, 40);
+    return counts.num_matchable;
+  };
+  EXPECT_EQ(num_matchable({50, 15}), 65);
+  EXPECT_EQ(num_matchable({50, 200}), 70);
+  EXPECT_EQ(num_matchable({800, 200}), 100);
 }
 
-// Whether `num_found` landmarks are enough at a place where so many are in view.
-bool HasComparableMatchRatioWith(size_t num_found, size_t num_points, size_t num_lines) {
-  FrameMatches found;
-  found.points.resize(num_found - 5);
-  found.lines.resize(5);
-  LocalMap place;
-  place.points.resize(num_points);
-  place.lines.resize(num_lines);
-  return HasComparableMatchRatio(found, place, FrameInCurrentMap());
-}
-
-TEST(HasComparableMatchRatio, RequiresHalfOfTheRatioInTheCurrentMap) {
-  EXPECT_TRUE(HasComparableMatchRatioWith(20, 40, 10));
-  EXPECT_TRUE(HasComparableMatchRatioWith(10, 40, 10));
-  EXPECT_FALSE(HasComparableMatchRatioWith(9, 40, 10));
-}
-
-// A map of many visits, of which the frame can match 100 landmarks.
-TEST(HasComparableMatchRatio, CountsNoMoreLandmarksThanFeatures) {
-  EXPECT_TRUE(HasComparableMatchRatioWith(20, 800, 200));
-  EXPECT_FALSE(HasComparableMatchRatioWith(19, 800, 200));
+TEST(HasComparableMatchRatio, RequiresHalfOfTheOtherRatio) {
+  const MatchCounts other{100, 40};
+  EXPECT_TRUE(HasComparableMatchRatio({200, 80}, other));
+  EXPECT_TRUE(HasComparableMatchRatio({200, 40}, other));
+  EXPECT_FALSE(HasComparableMatchRatio({200, 39}, other));
 }
 
 std::shared_ptr<Frame> FrameAtWall(double distance) {
