@@ -121,7 +121,7 @@ int RunSessions(int num, uint64_t second_path, const std::string& scene, LoopWor
   for (int i = 0; i < num; ++i) {
     options.seed = first + static_cast<uint64_t>(i);
     options.scene = scene.empty() ? LookAlikeKind(i) : *SceneKindFromName(scene);
-    options.returns = HasLookAlikes(options.scene) && i % 8 >= 4;
+    options.returns = SupportsReturns(options.scene) && i % 8 >= 4;
     const SessionScore score = RunSession(options, second_path);
     std::printf("%-9s %5llu %4llu %-7s %6d %9d %5d %5d %13.4f\n",
                 SceneKindNames()[static_cast<int>(options.scene)].c_str(),
@@ -145,17 +145,20 @@ int RunWorlds(int argc, char** argv) {
   app.add_option("--returns", num_returns, "Worlds with returns")->capture_default_str();
   app.add_option("--sessions", num_sessions, "Worlds that are visited a second time")
       ->capture_default_str();
-  uint64_t second_path = 2;
-  app.add_option("--session-path", second_path, "Path of the second session")
-      ->capture_default_str();
+  uint64_t second_path = 0;
+  app.add_option("--session-path", second_path, "Path of the second session; default: --path + 1")
+      ->check(CLI::PositiveNumber);
   double min_found = 0.0;
   app.add_option("--min-found", min_found, "Ratio of the returns; exit code 1 if fewer are found")
       ->capture_default_str();
   app.add_option("--seed", options.seed, "Seed of the first world")->capture_default_str();
-  app.add_option("--path", options.path, "Path through the worlds")->capture_default_str();
+  app.add_option("--path", options.path, "Path through the worlds")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
   app.add_option("--scene", scene, "Scene of all worlds; default: all four in turn")
       ->check(CLI::IsMember({"rooms", "mirrored", "floors", "desks", "gallery"}));
   CLI11_PARSE(app, argc, argv);
+  if (second_path == 0) second_path = options.path + 1;
   std::printf(
       "scene      seed path returns images rendering odometry      APE tracked segments claims "
       "false found/returns\n");
@@ -164,8 +167,8 @@ int RunWorlds(int argc, char** argv) {
   for (const bool returns : {false, true}) {
     for (int i = 0; i < (returns ? num_returns : num_alike); ++i) {
       options.seed = first + static_cast<uint64_t>(i);
-      options.returns = returns;
       options.scene = scene.empty() ? LookAlikeKind(i) : *SceneKindFromName(scene);
+      options.returns = returns && SupportsReturns(options.scene);
       RunWorld(options, &totals);
     }
   }
@@ -182,4 +185,11 @@ int RunWorlds(int argc, char** argv) {
 
 }  // namespace msc_vo
 
-int main(int argc, char** argv) { return msc_vo::RunWorlds(argc, argv); }
+int main(int argc, char** argv) {
+  try {
+    return msc_vo::RunWorlds(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return 1;
+  }
+}

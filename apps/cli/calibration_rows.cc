@@ -73,8 +73,12 @@ Numbers ScalesOf(const Calibration& calibration) {
   const PinholeCamera& color = calibration.Recorded();
   const PinholeCamera depth = DepthCameraOf(calibration).camera;
   const double f = color.FocalLength();
-  return {color.fx,           std::abs(color.fy),    f,      f,     1.0, 1.0, depth.fx, depth.fx,
-          std::abs(depth.fy), RadiansToDegrees(1.0), 1000.0, 1000.0};
+  // A shift of depth is in focal lengths of the colour image that depth is registered to. The depth
+  // image of a depth camera has pixels of another size.
+  const double depth_x = f * depth.fx / color.fx;
+  const double depth_y = f * std::abs(depth.fy / color.fy);
+  return {color.fx, std::abs(color.fy),    f,      f,     1.0, 1.0, depth.fx, depth_x,
+          depth_y,  RadiansToDegrees(1.0), 1000.0, 1000.0};
 }
 
 std::string VerdictOf(const Value& value, const CalibrationReport& report) {

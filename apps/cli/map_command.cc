@@ -55,6 +55,9 @@ void PrintInfo(const std::string& file) {
             << std::endl;
 }
 
+// Of the folder of an export; no format of recordings has images in a folder of this name.
+constexpr const char* kImageFolder = "keyframe_images";
+
 // Whether a file has the name of an exported image: six digits or more.
 bool IsExportedImage(const std::filesystem::path& path) {
   const std::string id = path.stem().string();
@@ -64,7 +67,7 @@ bool IsExportedImage(const std::filesystem::path& path) {
 
 // Replaces the exported images of a folder by those of the keyframes, named by their ids.
 void ExportImages(const std::string& file, const std::string& folder) {
-  const std::filesystem::path path = std::filesystem::path(folder) / "images";
+  const std::filesystem::path path = std::filesystem::path(folder) / kImageFolder;
   std::vector<std::filesystem::path> earlier;
   std::error_code is_missing;
   for (const auto& entry : std::filesystem::directory_iterator(path, is_missing)) {

@@ -13,9 +13,9 @@
 
 #include "apps/cli/command_log.h"
 #include "msc_vo/logging/logger.h"
-#include "msc_vo/map/observer_count.h"
 #include "msc_vo/map_file/map_images.h"
 #include "msc_vo/map_file/map_reader.h"
+#include "msc_vo/matching/local_map.h"
 #include "msc_vo/results/thumbnail.h"
 #include "msc_vo/text/format_text.h"
 
@@ -35,15 +35,7 @@ std::vector<KeyframeId> EarlierKeyframes(const TrackedImage& tracked) {
   if (map.keyframes().empty() || !map.IsOfEarlierSession(map.keyframes().front().first)) {
     return keyframes;
   }
-  ObserverCount observers(map);
-  ForEachLandmarkKind([&](auto kind) {
-    using L = typename decltype(kind)::Landmark;
-    for (const auto& match : tracked.tracked.matches.Of<L>()) {
-      const L* const landmark = match.inlier ? map.Find<L>(match.id) : nullptr;
-      if (landmark != nullptr) observers.Add(*landmark);
-    }
-  });
-  for (const Map::Covisible& observer : observers.Ranked()) {
+  for (const Map::Covisible& observer : RankObservers(map, tracked.tracked.matches)) {
     if (map.IsOfEarlierSession(observer.keyframe)) keyframes.push_back(observer.keyframe);
   }
   return keyframes;

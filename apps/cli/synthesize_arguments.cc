@@ -296,7 +296,7 @@ SyntheticSequenceOptions SequenceOptions(const SynthesizeArguments& arguments) {
   options.depth_rig = MakeRig(arguments.rig);
   options.lens = ParseLens(arguments.lens);
   if (arguments.turn_rate > 0.0) options.path.turn_rate = DegreesToRadians(arguments.turn_rate);
-  if (options.walk.returns && !HasLookAlikes(options.scene)) {
+  if (options.walk.returns && !SupportsReturns(options.scene)) {
     throw std::runtime_error(
         "--returns needs a scene with places that look alike: give --scene "
         "rooms, mirrored, floors or desks");

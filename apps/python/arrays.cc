@@ -222,14 +222,11 @@ Eigen::Matrix<double, 4, 4, Eigen::RowMajor> PoseMatrix(const Rigid3& pose) {
 }
 
 RowMajorMatrix TrajectoryRows(const std::vector<TimedPose>& poses) {
-  RowMajorMatrix rows(poses.size(), 8);
-  for (size_t i = 0; i < poses.size(); ++i) {
-    Eigen::Vector4d q = poses[i].world_from_cam.rotation().normalized().coeffs();
+  return Rows(poses, 8, [](const TimedPose& pose, auto row) {
+    Eigen::Vector4d q = pose.world_from_cam.rotation().normalized().coeffs();
     if (q.w() < 0.0) q = -q;
-    rows.row(i) << poses[i].timestamp, poses[i].world_from_cam.translation().transpose(),
-        q.transpose();
-  }
-  return rows;
+    row << pose.timestamp, pose.world_from_cam.translation().transpose(), q.transpose();
+  });
 }
 
 }  // namespace msc_vo

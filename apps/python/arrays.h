@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -59,6 +60,49 @@ cv::Mat DepthArgument(pybind11::handle value, pybind11::handle depth_scale,
 Eigen::Matrix<double, 4, 4, Eigen::RowMajor> PoseMatrix(const Rigid3& pose);
 /// Rows "t tx ty tz qx qy qz qw", camera in world, as in trajectory files: w >= 0.
 RowMajorMatrix TrajectoryRows(const std::vector<TimedPose>& poses);
+
+// Arrays with one row per item of a vector; without items, of length 0 with the same type and
+// number of columns.
+
+/// A number or truth value of every item, shape (N,). `get`: a function or a member of the item.
+template <typename T, typename Item, typename Get>
+pybind11::array_t<T> Column(const std::vector<Item>& items, const Get& get) {
+  pybind11::array_t<T> column(static_cast<pybind11::ssize_t>(items.size()));
+  T* to = column.mutable_data();
+  for (const Item& item : items) *to++ = std::invoke(get, item);
+  return column;
+}
+/// The getter of a property: a member of all items in a vector of an object.
+template <typename Object, typename Item, typename T>
+auto ColumnGetter(std::vector<Item> Object::*items, T Item::*member) {
+  return [items, member](const Object& self) { return Column<T>(self.*items, member); };
+}
+/// Shape (N, num_cols). `fill(item, row)` writes a row.
+template <typename Item, typename Fill>
+RowMajorMatrix Rows(const std::vector<Item>& items, int num_cols, const Fill& fill) {
+  RowMajorMatrix rows(static_cast<Eigen::Index>(items.size()), num_cols);
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) fill(items[i], rows.row(i));
+  return rows;
+}
+/// Square matrices of the items, shape (N, size, size).
+template <int size, typename Item, typename Get>
+pybind11::array_t<double> Matrices(const std::vector<Item>& items, const Get& get) {
+  using Matrix = Eigen::Matrix<double, size, size, Eigen::RowMajor>;
+  const auto num_items = static_cast<pybind11::ssize_t>(items.size());
+  pybind11::array_t<double> matrices(std::vector<pybind11::ssize_t>{num_items, size, size});
+  double* to = matrices.mutable_data();
+  for (const Item& item : items) {
+    Eigen::Map<Matrix> matrix(to);
+    matrix = get(item);
+    to += size * size;
+  }
+  return matrices;
+}
+/// Writes the end points of a LineSegment2 or LineSegment3 to a row.
+template <typename Segment, typename Row>
+void FillEndPoints(const Segment& segment, Row row) {
+  row << segment.start.transpose(), segment.end.transpose();
+}
 
 /// A read-only array of shape `shape` over memory that `owner` keeps alive.
 template <typename T>

@@ -89,13 +89,10 @@ TrajectoryError Evaluate(const py::object& gt, const py::object& est, const std:
   return error;
 }
 
-py::array PerPoseOf(const TrajectoryError& error) {
-  RowMajorMatrix rows(error.per_pose.size(), 3);
-  for (size_t i = 0; i < error.per_pose.size(); ++i) {
-    const PoseError& pose = error.per_pose[i];
-    rows.row(i) << pose.timestamp, pose.translation, pose.rotation;
-  }
-  return py::cast(rows);
+RowMajorMatrix PerPoseOf(const TrajectoryError& error) {
+  return Rows(error.per_pose, 3, [](const PoseError& pose, auto row) {
+    row << pose.timestamp, pose.translation, pose.rotation;
+  });
 }
 
 std::string Describe(const ErrorStatistics& statistics) {

@@ -287,12 +287,13 @@ void BindStorage(py::class_<PyOdometry>* odometry) {
            py::arg("only_localize") = false,
            "Begins with the map of earlier sessions. only_localize: frames that are not in its "
            "world are lost (Localizer). ValueError after the first image.")
-      .def("save_map", &PyOdometry::WriteMap, py::arg("file"), py::arg("session") = "",
-           py::kw_only(), py::arg("images") = py::dict(),
-           "Waits for local mapping and replaces a file by the map of this and earlier sessions. "
-           "images: dict from the id of a keyframe to the bytes of a JPEG file of at most 64 KB; "
-           "ValueError on other bytes. Keeps the images in the file of keyframes that are still in "
-           "the map and whose session has a name.")
+      .def(
+          "save_map", &PyOdometry::WriteMap, py::arg("file"), py::arg("session") = "",
+          py::kw_only(), py::arg("images") = py::dict(),
+          "Waits for local mapping and replaces a file by the map of this and earlier sessions. "
+          "images: dict from the id of a keyframe to the bytes of a JPEG file of at most 64 KB; "
+          "ValueError on other bytes. The file keeps the images of keyframes that are still in the "
+          "map and whose session has a name.")
       .def(
           "save", &PyOdometry::Save, py::arg("folder"),
           "Waits for local mapping and writes a checkpoint of the run, which replaces an earlier "

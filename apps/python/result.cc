@@ -53,57 +53,30 @@ py::array LineObservationsOf(const py::object& self) {
                    {sizeof(MapLine)}, self);
 }
 
-py::array LineAxesOf(const OdometryResult& result) {
-  py::array_t<int> axes(static_cast<py::ssize_t>(result.lines.size()));
-  for (size_t i = 0; i < result.lines.size(); ++i) {
-    axes.mutable_at(i) = result.lines[i].axis.value_or(-1);
-  }
-  return axes;
+// The Manhattan axes of lines or planes; -1: none.
+template <typename Item>
+py::array AxesOf(const std::vector<Item>& items) {
+  return Column<int>(items, [](const Item& item) { return item.axis.value_or(-1); });
 }
 
 // (M, 4) rows n, d.
 RowMajorMatrix PlanesOf(const OdometryResult& result) {
-  RowMajorMatrix rows(static_cast<Eigen::Index>(result.planes.size()), 4);
-  for (size_t i = 0; i < result.planes.size(); ++i) {
-    rows.row(static_cast<Eigen::Index>(i)) = result.planes[i].plane.params.transpose();
-  }
-  return rows;
+  return Rows(result.planes, 4,
+              [](const MapPlane& plane, auto row) { row = plane.plane.params.transpose(); });
 }
 
 py::list PlaneExtentsOf(const OdometryResult& result) {
   py::list extents;
   for (const MapPlane& plane : result.planes) {
-    RowMajorMatrix vertices(static_cast<Eigen::Index>(plane.extent.size()), 3);
-    for (size_t i = 0; i < plane.extent.size(); ++i) {
-      vertices.row(static_cast<Eigen::Index>(i)) = plane.extent[i].transpose();
-    }
-    extents.append(py::cast(vertices));
+    extents.append(Rows(plane.extent, 3,
+                        [](const Eigen::Vector3d& vertex, auto row) { row = vertex.transpose(); }));
   }
   return extents;
 }
 
-py::array PlaneObservationsOf(const OdometryResult& result) {
-  py::array_t<int> counts(static_cast<py::ssize_t>(result.planes.size()));
-  for (size_t i = 0; i < result.planes.size(); ++i) {
-    counts.mutable_at(i) = result.planes[i].num_observations;
-  }
-  return counts;
-}
-
-py::array PlaneAxesOf(const OdometryResult& result) {
-  py::array_t<int> axes(static_cast<py::ssize_t>(result.planes.size()));
-  for (size_t i = 0; i < result.planes.size(); ++i) {
-    axes.mutable_at(i) = result.planes[i].axis.value_or(-1);
-  }
-  return axes;
-}
-
 py::array EstimatedOf(const OdometryResult& result) {
-  py::array_t<bool> estimated(static_cast<py::ssize_t>(result.frames.size()));
-  for (size_t i = 0; i < result.frames.size(); ++i) {
-    estimated.mutable_at(i) = IsEstimated(result.frames[i].status);
-  }
-  return estimated;
+  return Column<bool>(result.frames,
+                      [](const FrameResult& frame) { return IsEstimated(frame.status); });
 }
 
 // One row per frame, also for those that have no pose.
@@ -123,30 +96,16 @@ RowMajorMatrix AllRows(const OdometryResult& result) {
 // One per frame; nan where nothing determines the pose.
 py::array_t<double> CovariancesOf(const OdometryResult& result,
                                   std::optional<PoseCovariance> FrameResult::*covariance) {
-  const auto size = static_cast<py::ssize_t>(result.frames.size());
-  py::array_t<double> covariances({size, py::ssize_t{6}, py::ssize_t{6}});
-  double* to = covariances.mutable_data();
-  for (const FrameResult& frame : result.frames) {
-    Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>> matrix(to);
-    matrix = (frame.*covariance)
-                 .value_or(PoseCovariance::Constant(std::numeric_limits<double>::quiet_NaN()));
-    to += matrix.size();
-  }
-  return covariances;
+  return Matrices<6>(result.frames, [covariance](const FrameResult& frame) {
+    return (frame.*covariance)
+        .value_or(PoseCovariance::Constant(std::numeric_limits<double>::quiet_NaN()));
+  });
 }
 
 py::object StatusOf(const OdometryResult& result) {
   py::list names;
   for (const FrameResult& frame : result.frames) names.append(ToString(frame.status));
   return py::module_::import("numpy").attr("array")(names, "U10");  // also if there are none
-}
-
-py::array SegmentOf(const OdometryResult& result) {
-  py::array_t<int> segments(static_cast<py::ssize_t>(result.frames.size()));
-  for (size_t i = 0; i < result.frames.size(); ++i) {
-    segments.mutable_at(i) = result.frames[i].segment;
-  }
-  return segments;
 }
 
 py::list SegmentsOf(const OdometryResult& result) {
@@ -249,6 +208,7 @@ void BindCalibrationOf(ResultClass* result) {
 }
 
 void BindPlanesOf(ResultClass* result) {
+  using Result = OdometryResult;
   result
       ->def_property_readonly("planes", &PlanesOf,
                               "(M, 4) rows n, d of map planes n . x + d = 0: unit normal towards "
@@ -256,11 +216,13 @@ void BindPlanesOf(ResultClass* result) {
       .def_property_readonly("plane_extents", &PlaneExtentsOf,
                              "M arrays (K, 3), the vertices of the observed part of each plane, "
                              "counter-clockwise seen from its front; K = 0: unknown.")
-      .def_property_readonly("plane_observations", &PlaneObservationsOf,
+      .def_property_readonly("plane_observations",
+                             ColumnGetter(&Result::planes, &MapPlane::num_observations),
                              "(M,) number of keyframes that observe each plane.")
-      .def_property_readonly("plane_axes", &PlaneAxesOf,
-                             "(M,) the Manhattan axis (0, 1, 2) that the normal of a plane is "
-                             "parallel to; -1: none.");
+      .def_property_readonly(
+          "plane_axes", [](const Result& self) { return AxesOf(self.planes); },
+          "(M,) the Manhattan axis (0, 1, 2) that the normal of a plane is "
+          "parallel to; -1: none.");
 }
 
 void BindAxesOf(ResultClass* result) {
@@ -311,7 +273,8 @@ void BindResult(py::module_* module) {
                              "nan in frames before "
                              "the first segment, which have no pose.")
       .def_property_readonly("status", &StatusOf, "(N,) str, FrameResult.status of every frame.")
-      .def_property_readonly("segment", &SegmentOf,
+      .def_property_readonly("segment",
+                             ColumnGetter(&OdometryResult::frames, &FrameResult::segment),
                              "(N,) number of the segment that each frame belongs to; -1: none.")
       .def_property_readonly("segments", &SegmentsOf,
                              "One dict per segment: first_frame, last_frame, num_estimated, world, "
@@ -338,7 +301,7 @@ void BindResult(py::module_* module) {
       .def_property_readonly("line_observations", &LineObservationsOf,
                              "(L,) number of keyframes that observe each line.")
       .def_property_readonly(
-          "line_axes", &LineAxesOf,
+          "line_axes", [](const OdometryResult& self) { return AxesOf(self.lines); },
           "(L,) the Manhattan axis (0, 1, 2) that a line is parallel to; -1: none.")
       .def_property_readonly("earlier_sessions", &EarlierSessionsOf,
                              "Sessions of the map that the run began with, by world: name, world "

@@ -78,11 +78,7 @@ py::object MaskOf(const py::object& self) {
 }
 
 py::array_t<double> StampsOf(const RgbdDecoder& sequence) {
-  py::array_t<double> stamps(sequence.size());
-  for (int i = 0; i < sequence.size(); ++i) {
-    stamps.mutable_at(i) = sequence.index().entries[i].timestamp;
-  }
-  return stamps;
+  return Column<double>(sequence.index().entries, &SequenceEntry::timestamp);
 }
 
 void BindImage(py::module_* module) {

@@ -36,37 +36,26 @@ struct PyTrackedImage {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 RowMajorMatrix PointsOf(const PyTrackedImage& self) {
-  const auto& points = self.Get().features.points;
-  RowMajorMatrix rows(points.size(), 2);
-  for (size_t i = 0; i < points.size(); ++i) rows.row(i) = points[i].pixel.transpose();
-  return rows;
+  return Rows(self.Get().features.points, 2,
+              [](const PointFeature& point, auto row) { row = point.pixel.transpose(); });
 }
 
-Eigen::VectorXd PointDepthsOf(const PyTrackedImage& self) {
-  const auto& points = self.Get().features.points;
-  Eigen::VectorXd depths(points.size());
-  for (size_t i = 0; i < points.size(); ++i) {
-    depths[i] = points[i].HasDepth() ? 1.0 / points[i].inverse_depth : kNone;
-  }
-  return depths;
+py::array PointDepthsOf(const PyTrackedImage& self) {
+  return Column<double>(self.Get().features.points, [](const PointFeature& point) {
+    return point.HasDepth() ? 1.0 / point.inverse_depth : kNone;
+  });
 }
 
 RowMajorMatrix LinesOf(const PyTrackedImage& self) {
-  const auto& lines = self.Get().features.lines;
-  RowMajorMatrix rows(lines.size(), 4);
-  for (size_t i = 0; i < lines.size(); ++i) {
-    rows.row(i) << lines[i].segment.start.transpose(), lines[i].segment.end.transpose();
-  }
-  return rows;
+  return Rows(self.Get().features.lines, 4,
+              [](const LineFeature& line, auto row) { FillEndPoints(line.segment, row); });
 }
 
 RowMajorMatrix LineDepthsOf(const PyTrackedImage& self) {
-  const auto& lines = self.Get().features.lines;
-  RowMajorMatrix depths = RowMajorMatrix::Constant(lines.size(), 2, kNone);
-  for (size_t i = 0; i < lines.size(); ++i) {
-    if (lines[i].depth) depths.row(i) << 1.0 / lines[i].depth->start, 1.0 / lines[i].depth->end;
-  }
-  return depths;
+  return Rows(self.Get().features.lines, 2, [](const LineFeature& line, auto row) {
+    row.setConstant(kNone);
+    if (line.depth) row << 1.0 / line.depth->start, 1.0 / line.depth->end;
+  });
 }
 
 // The landmark that each feature is matched with.

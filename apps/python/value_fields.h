@@ -16,8 +16,7 @@
 namespace msc_vo {
 
 // FieldsOf() passes all fields of a value to a BinaryWriter or a BinaryReader, also of types that
-// no checkpoint contains. A structured binding names all members, so that a new one that is not
-// listed does not compile.
+// no checkpoint contains.
 
 /// Types that list their fields themselves.
 template <typename Archive, typename T>
@@ -46,159 +45,57 @@ void AllFieldsOf(Archive& archive, Values&... values) {
   (FieldsOf(archive, values), ...);
 }
 
-template <typename Archive>
-void FieldsOf(Archive& archive, TimedPose& value) {
-  auto& [timestamp, world_from_cam, is_estimated, segment, world] = value;
-  archive(timestamp, world_from_cam, is_estimated, segment, world);
-}
+// Defines FieldsOf() of a struct by the names of all its members in the order of their declaration,
+// which is the order in a pickle. A structured binding names them, so that a list with a member too
+// few or too many does not compile.
+#define MSC_VO_FIELDS_OF(Type, ...)              \
+  template <typename Archive>                    \
+  void FieldsOf(Archive& archive, Type& value) { \
+    auto& [__VA_ARGS__] = value;                 \
+    AllFieldsOf(archive, __VA_ARGS__);           \
+  }
+
+MSC_VO_FIELDS_OF(TimedPose, timestamp, world_from_cam, is_estimated, segment, world)
 
 // The result of a run.
 
-template <typename Archive>
-void FieldsOf(Archive& archive, SegmentJoin& value) {
-  auto& [frame, num_keyframes, rotation_sigma, translation_sigma] = value;
-  archive(frame, num_keyframes, rotation_sigma, translation_sigma);
-}
-
-template <typename Archive>
-void FieldsOf(Archive& archive, Segment& value) {
-  auto& [first_frame, last_frame, num_estimated, world, join, is_earlier_session] = value;
-  AllFieldsOf(archive, first_frame, last_frame, num_estimated, world, join, is_earlier_session);
-}
-
-template <typename Archive>
-void FieldsOf(Archive& archive, MapPoint& value) {
-  auto& [position, num_observations] = value;
-  archive(position, num_observations);
-}
-
-template <typename Archive>
-void FieldsOf(Archive& archive, MapLine& value) {
-  auto& [segment, num_observations, in_last_window, axis, viewing_direction] = value;
-  archive(segment, num_observations, in_last_window, axis, viewing_direction);
-}
-
-template <typename Archive>
-void FieldsOf(Archive& archive, MapPlane& value) {
-  auto& [plane, extent, num_observations, axis] = value;
-  archive(plane, extent, num_observations, axis);
-}
-
-template <typename Archive>
-void FieldsOf(Archive& archive, MapAxes& value) {
-  auto& [state, num_refinements, world_from_axes, sigma, deviation] = value;
-  archive(state, num_refinements, world_from_axes, sigma, deviation);
-}
-
-template <typename Archive>
-void FieldsOf(Archive& archive, DepthCamera& value) {
-  auto& [camera, depth_from_color, inverse_depth_offset, distortion] = value;
-  archive(camera, depth_from_color, inverse_depth_offset, distortion);
-}
-
-template <typename Archive>
-void FieldsOf(Archive& archive, SessionPath& value) {
-  auto& [name, world, world_from_cam] = value;
-  AllFieldsOf(archive, name, world, world_from_cam);
-}
-
-template <typename Archive>
-void FieldsOf(Archive& archive, OdometryResult& value) {
-  auto& [frames, segments, loops, map_world, keyframes, earlier_sessions, points, lines, planes,
-         axes, noise_scale, depth_sensor, readout_time, readout_time_sigma, calibration, intrinsics,
-         depth_camera, extra_blocks, last_window, num_late_maps] = value;
-  AllFieldsOf(archive, frames, segments, loops, map_world, keyframes, earlier_sessions, points,
-              lines, planes, axes, noise_scale, depth_sensor, readout_time, readout_time_sigma,
-              calibration, intrinsics, depth_camera, extra_blocks, last_window, num_late_maps);
-}
+MSC_VO_FIELDS_OF(SegmentJoin, frame, num_keyframes, rotation_sigma, translation_sigma)
+MSC_VO_FIELDS_OF(Segment, first_frame, last_frame, num_estimated, world, join, is_earlier_session)
+MSC_VO_FIELDS_OF(MapPoint, position, num_observations)
+MSC_VO_FIELDS_OF(MapLine, segment, num_observations, in_last_window, axis, viewing_direction)
+MSC_VO_FIELDS_OF(MapPlane, plane, extent, num_observations, axis)
+MSC_VO_FIELDS_OF(MapAxes, state, num_refinements, world_from_axes, sigma, deviation)
+MSC_VO_FIELDS_OF(DepthCamera, camera, depth_from_color, inverse_depth_offset, distortion)
+MSC_VO_FIELDS_OF(SessionPath, name, world, world_from_cam)
+MSC_VO_FIELDS_OF(OdometryResult, frames, segments, loops, map_world, keyframes, earlier_sessions,
+                 points, lines, planes, axes, noise_scale, depth_sensor, readout_time,
+                 readout_time_sigma, calibration, intrinsics, depth_camera, extra_blocks,
+                 last_window, num_late_maps)
 
 // Errors of a trajectory.
 
-template <typename Archive>
-void FieldsOf(Archive& archive, ErrorStatistics& value) {
-  auto& [count, rmse, mean, median, p95, max, min, std, sse] = value;
-  archive(count, rmse, mean, median, p95, max, min, std, sse);
-}
-
-template <typename Archive>
-void FieldsOf(Archive& archive, RelativeError& value) {
-  auto& [translation, rotation] = value;
-  AllFieldsOf(archive, translation, rotation);
-}
-
-template <typename Archive>
-void FieldsOf(Archive& archive, PoseError& value) {
-  auto& [timestamp, translation, rotation] = value;
-  archive(timestamp, translation, rotation);
-}
-
-template <typename Archive>
-void FieldsOf(Archive& archive, TrajectoryError& value) {
-  auto& [usable, message, warnings, num_reference, num_estimate, num_not_estimated, num_matched,
-         num_reference_in_range, coverage, coverage_in_range, path_length, alignment,
-         reference_from_estimate, scale, ape, rotation, ape_rotation, rpe, rpe_per_second,
-         rpe_per_metre, per_pose, matched_reference, matched_estimate] = value;
-  AllFieldsOf(archive, usable, message, warnings, num_reference, num_estimate, num_not_estimated,
-              num_matched, num_reference_in_range, coverage, coverage_in_range, path_length,
-              alignment, reference_from_estimate, scale, ape, rotation, ape_rotation, rpe,
-              rpe_per_second, rpe_per_metre, per_pose, matched_reference, matched_estimate);
-}
+MSC_VO_FIELDS_OF(ErrorStatistics, count, rmse, mean, median, p95, max, min, std, sse)
+MSC_VO_FIELDS_OF(RelativeError, translation, rotation)
+MSC_VO_FIELDS_OF(PoseError, timestamp, translation, rotation)
+MSC_VO_FIELDS_OF(TrajectoryError, usable, message, warnings, num_reference, num_estimate,
+                 num_not_estimated, num_matched, num_reference_in_range, coverage,
+                 coverage_in_range, path_length, alignment, reference_from_estimate, scale, ape,
+                 rotation, ape_rotation, rpe, rpe_per_second, rpe_per_metre, per_pose,
+                 matched_reference, matched_estimate)
 
 // Windows of bundle adjustment.
 
-template <typename Archive>
-void FieldsOf(Archive& archive, WindowData::Keyframe& value) {
-  auto& [id, cam_from_world, fixed] = value;
-  archive(id, cam_from_world, fixed);
-}
-
-template <typename Archive>
-void FieldsOf(Archive& archive, WindowData::Point& value) {
-  auto& [id, position, fixed, noise] = value;
-  archive(id, position, fixed, noise);
-}
-
-template <typename Archive>
-void FieldsOf(Archive& archive, WindowData::Line& value) {
-  auto& [id, segment, fixed, noise, depth_offset] = value;
-  archive(id, segment, fixed, noise, depth_offset);
-}
-
-template <typename Archive>
-void FieldsOf(Archive& archive, WindowData::PointObservation& value) {
-  auto& [keyframe, point, pixel, sigma, inverse_depth, inverse_depth_sigma, rejected] = value;
-  archive(keyframe, point, pixel, sigma, inverse_depth, inverse_depth_sigma, rejected);
-}
-
-template <typename Archive>
-void FieldsOf(Archive& archive, WindowData::LineObservation& value) {
-  auto& [keyframe, line, segment, sigma, has_depth, depth, rejected] = value;
-  archive(keyframe, line, segment, sigma, has_depth, depth, rejected);
-}
-
-template <typename Archive>
-void FieldsOf(Archive& archive, WindowData::LinePair& value) {
-  auto& [a, b, sigma, count, rejected] = value;
-  archive(a, b, sigma, count, rejected);
-}
-
-template <typename Archive>
-void FieldsOf(Archive& archive, WindowData::AxisAlignment& value) {
-  auto& [line, axis, sigma, rejected] = value;
-  archive(line, axis, sigma, rejected);
-}
-
-template <typename Archive>
-void FieldsOf(Archive& archive, WindowData::PosePrior& value) {
-  auto& [keyframe, cam_from_world, covariance] = value;
-  archive(keyframe, cam_from_world, covariance);
-}
-
-template <typename Archive>
-void FieldsOf(Archive& archive, WindowAxes& value) {
-  auto& [world_from_axes, fixed] = value;
-  archive(world_from_axes, fixed);
-}
+MSC_VO_FIELDS_OF(WindowData::Keyframe, id, cam_from_world, fixed)
+MSC_VO_FIELDS_OF(WindowData::Point, id, position, fixed, noise)
+MSC_VO_FIELDS_OF(WindowData::Line, id, segment, fixed, noise, depth_offset)
+MSC_VO_FIELDS_OF(WindowData::PointObservation, keyframe, point, pixel, sigma, inverse_depth,
+                 inverse_depth_sigma, rejected)
+MSC_VO_FIELDS_OF(WindowData::LineObservation, keyframe, line, segment, sigma, has_depth, depth,
+                 rejected)
+MSC_VO_FIELDS_OF(WindowData::LinePair, a, b, sigma, count, rejected)
+MSC_VO_FIELDS_OF(WindowData::AxisAlignment, line, axis, sigma, rejected)
+MSC_VO_FIELDS_OF(WindowData::PosePrior, keyframe, cam_from_world, covariance)
+MSC_VO_FIELDS_OF(WindowAxes, world_from_axes, fixed)
 
 /// Without extra blocks and custom factors, which hold code.
 template <typename Archive>
@@ -214,18 +111,10 @@ void FieldsOf(Archive& archive, WindowData& value) {
 
 // Contexts of callbacks.
 
-template <typename Archive>
-void FieldsOf(Archive& archive, WindowContext::Keyframe& value) {
-  auto& [id, timestamp, cam_from_world, fixed] = value;
-  archive(id, timestamp, cam_from_world, fixed);
-}
+MSC_VO_FIELDS_OF(WindowContext::Keyframe, id, timestamp, cam_from_world, fixed)
+MSC_VO_FIELDS_OF(FrameContext, timestamp, last_timestamp, last_cam_from_world,
+                 predicted_cam_from_world, world, extra_blocks)
 
-template <typename Archive>
-void FieldsOf(Archive& archive, FrameContext& value) {
-  auto& [timestamp, last_timestamp, last_cam_from_world, predicted_cam_from_world, world,
-         extra_blocks] = value;
-  AllFieldsOf(archive, timestamp, last_timestamp, last_cam_from_world, predicted_cam_from_world,
-              world, extra_blocks);
-}
+#undef MSC_VO_FIELDS_OF
 
 }  // namespace msc_vo

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "apps/python/value_fields.h"
 #include "msc_vo/checkpoint/binary_reader.h"
 #include "msc_vo/checkpoint/binary_writer.h"
+#include "msc_vo/checkpoint/field_count.h"
 #include "msc_vo/sensor/rgbd_image.h"
 #include "msc_vo/version.h"
 
@@ -107,8 +109,12 @@ void DefineBinaryValue(const py::module_& module, const char* name) {
                          &Encode<T>);
 }
 
+// The states of these types are written by hand: a structured binding or CheckFieldCount() fails to
+// compile if a member is added, so that none is left out.
+
 py::tuple CameraState(const PinholeCamera& camera) {
-  return py::make_tuple(camera.fx, camera.fy, camera.cx, camera.cy, camera.width, camera.height);
+  const auto& [fx, fy, cx, cy, width, height] = camera;
+  return py::make_tuple(fx, fy, cx, cy, width, height);
 }
 
 PinholeCamera CameraFromState(const py::tuple& state) {
@@ -117,6 +123,7 @@ PinholeCamera CameraFromState(const py::tuple& state) {
 }
 
 py::tuple LensState(const LensDistortion& lens) {
+  CheckFieldCount<3>(lens);
   py::object recorded = py::none();
   if (lens.recorded) recorded = CameraState(*lens.recorded);
   return py::make_tuple(LensModelName(lens.model), py::tuple(py::cast(lens.Coefficients())),
@@ -161,15 +168,17 @@ py::tuple MatState(const cv::Mat& image) {
 }
 
 cv::Mat MatFromState(const py::tuple& state) {
-  const cv::Mat image(state[0].cast<int>(), state[1].cast<int>(), state[2].cast<int>());
+  cv::Mat image(state[0].cast<int>(), state[1].cast<int>(), state[2].cast<int>());
   const auto bytes = state[3].cast<std::string>();
   std::copy(bytes.begin(), bytes.end(), image.data);
   return image;
 }
 
 py::tuple ImageState(const RgbdImage& image) {
-  return py::make_tuple(image.id, image.timestamp, image.depth_delay, MatState(image.gray),
-                        MatState(image.depth), MatState(image.recorded_depth));
+  const auto& [id, timestamp, gray, depth, depth_delay, depth_velocity, recorded_depth, mask] =
+      image;
+  return py::make_tuple(id, timestamp, depth_delay, MatState(gray), MatState(depth),
+                        MatState(recorded_depth), Encode(depth_velocity), MatState(mask));
 }
 
 RgbdImage ImageFromState(const py::tuple& state) {
@@ -180,10 +189,13 @@ RgbdImage ImageFromState(const py::tuple& state) {
   image.gray = MatFromState(state[3]);
   image.depth = MatFromState(state[4]);
   image.recorded_depth = MatFromState(state[5]);
+  image.depth_velocity = Decode<std::optional<CameraVelocity>>(state[6].cast<std::string>());
+  image.mask = MatFromState(state[7]);
   return image;
 }
 
 py::tuple BlockState(const ExtraBlock& block) {
+  CheckFieldCount<4>(block);
   return py::make_tuple(block.id, py::tuple(py::cast(block.value).attr("tolist")()),
                         ManifoldName(block), block.fixed);
 }
@@ -220,6 +232,7 @@ WindowData WindowFromState(const py::tuple& state) {
 py::object WindowKey(const WindowData& window) {
   py::list factors;
   for (const CustomFactor& factor : window.custom_factors) {
+    CheckFieldCount<4>(factor);
     factors.append(py::make_tuple(factor.name, reinterpret_cast<uintptr_t>(factor.cost.get()),
                                   reinterpret_cast<uintptr_t>(factor.loss.get()), factor.blocks));
   }
@@ -237,6 +250,7 @@ void DefineInputs(const py::module_& module) {
   DefineValue<RgbdImage, std::shared_ptr<RgbdImage>>(module, "RgbdImage", Hash::kOfKey, &ImageState,
                                                      &ImageFromState, &ImageState);
   const auto block_id = [](const BlockId& id) {
+    CheckFieldCount<2>(id);
     return py::make_tuple(static_cast<int>(id.kind), id.id);
   };
   DefineValue<BlockId, std::unique_ptr<BlockId>>(

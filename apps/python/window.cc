@@ -89,20 +89,6 @@ py::dict TermsOf(const BundleAdjustmentSummary& summary) {
   return terms;
 }
 
-template <typename Items>
-py::array_t<int64_t> IdsOf(const Items& items) {
-  py::array_t<int64_t> ids(static_cast<py::ssize_t>(items.size()));
-  for (size_t i = 0; i < items.size(); ++i) ids.mutable_at(i) = items[i].id;
-  return ids;
-}
-
-template <typename Items>
-py::array_t<bool> RejectedOf(const Items& items) {
-  py::array_t<bool> rejected(static_cast<py::ssize_t>(items.size()));
-  for (size_t i = 0; i < items.size(); ++i) rejected.mutable_at(i) = items[i].rejected;
-  return rejected;
-}
-
 void SetAxes(WindowData* window, const py::object& world_from_axes, bool fixed) {
   RowMajorMatrix pose = RowMajorMatrix::Identity(4, 4);
   pose.topLeftCorner<3, 3>() = MatrixArgument(world_from_axes, "world_from_axes", 3, 3);
@@ -116,21 +102,6 @@ void AddFactors(WindowData* window, const py::object& items) {
                                 lists.factors.end());
   window->extra_blocks.insert(window->extra_blocks.end(), lists.extra_blocks.begin(),
                               lists.extra_blocks.end());
-}
-
-template <typename Items>
-py::array_t<bool> FixedOf(const Items& items) {
-  py::array_t<bool> fixed(static_cast<py::ssize_t>(items.size()));
-  for (size_t i = 0; i < items.size(); ++i) fixed.mutable_at(i) = items[i].fixed;
-  return fixed;
-}
-
-// One number per item.
-template <typename Items, typename Get>
-py::array_t<double> NumbersOf(const Items& items, const Get& get) {
-  py::array_t<double> numbers(static_cast<py::ssize_t>(items.size()));
-  for (size_t i = 0; i < items.size(); ++i) numbers.mutable_at(i) = get(items[i]);
-  return numbers;
 }
 
 void SetKeyframeFixed(WindowData* window, int64_t keyframe, bool fixed) {
@@ -216,46 +187,35 @@ void BindAdders(WindowClass* window) {
 void BindState(WindowClass* window) {
   (*window)
       .def_readonly("camera", &WindowData::camera, "Camera of all keyframes.")
-      .def_property_readonly(
-          "keyframe_ids", [](const WindowData& self) { return IdsOf(self.keyframes); },
-          "(N,) ids in the order of the other arrays of keyframes.")
+      .def_property_readonly("keyframe_ids",
+                             ColumnGetter(&WindowData::keyframes, &WindowData::Keyframe::id),
+                             "(N,) ids in the order of the other arrays of keyframes.")
       .def_property_readonly("cam_from_world", &PosesOf, "(N, 4, 4) poses of the keyframes.")
-      .def_property_readonly(
-          "keyframe_fixed", [](const WindowData& self) { return FixedOf(self.keyframes); },
-          "(N,) whether each keyframe is held constant.")
+      .def_property_readonly("keyframe_fixed",
+                             ColumnGetter(&WindowData::keyframes, &WindowData::Keyframe::fixed),
+                             "(N,) whether each keyframe is held constant.")
       .def("set_keyframe_fixed", &SetKeyframeFixed, py::arg("keyframe"), py::arg("fixed") = true,
            "Holds a keyframe constant, or not.")
-      .def_property_readonly(
-          "point_ids", [](const WindowData& self) { return IdsOf(self.points); },
-          "(N,) ids in the order of points.")
+      .def_property_readonly("point_ids", ColumnGetter(&WindowData::points, &WindowData::Point::id),
+                             "(N,) ids in the order of points.")
       .def_property_readonly("points", &PointsOf, "(N, 3) metres, world.")
-      .def_property_readonly(
-          "point_fixed", [](const WindowData& self) { return FixedOf(self.points); },
-          "(N,) whether each point is held constant.")
-      .def_property_readonly(
-          "point_noise",
-          [](const WindowData& self) {
-            return NumbersOf(self.points, [](const WindowData::Point& p) { return p.noise; });
-          },
-          "(N,) factors on the sigmas of the observations of each point.")
-      .def_property_readonly(
-          "line_ids", [](const WindowData& self) { return IdsOf(self.lines); },
-          "(N,) ids in the order of lines.")
+      .def_property_readonly("point_fixed",
+                             ColumnGetter(&WindowData::points, &WindowData::Point::fixed),
+                             "(N,) whether each point is held constant.")
+      .def_property_readonly("point_noise",
+                             ColumnGetter(&WindowData::points, &WindowData::Point::noise),
+                             "(N,) factors on the sigmas of the observations of each point.")
+      .def_property_readonly("line_ids", ColumnGetter(&WindowData::lines, &WindowData::Line::id),
+                             "(N,) ids in the order of lines.")
       .def_property_readonly("lines", &LinesOf, "(N, 6) start and end, metres, world.")
+      .def_property_readonly("line_fixed",
+                             ColumnGetter(&WindowData::lines, &WindowData::Line::fixed),
+                             "(N,) whether each line is held constant.")
+      .def_property_readonly("line_noise",
+                             ColumnGetter(&WindowData::lines, &WindowData::Line::noise),
+                             "(N,) factors on the sigmas of the observations of each line.")
       .def_property_readonly(
-          "line_fixed", [](const WindowData& self) { return FixedOf(self.lines); },
-          "(N,) whether each line is held constant.")
-      .def_property_readonly(
-          "line_noise",
-          [](const WindowData& self) {
-            return NumbersOf(self.lines, [](const WindowData::Line& l) { return l.noise; });
-          },
-          "(N,) factors on the sigmas of the observations of each line.")
-      .def_property_readonly(
-          "line_depth_offsets",
-          [](const WindowData& self) {
-            return NumbersOf(self.lines, [](const WindowData::Line& l) { return l.depth_offset; });
-          },
+          "line_depth_offsets", ColumnGetter(&WindowData::lines, &WindowData::Line::depth_offset),
           "(N,) metres, measured minus true depth in all observations of each line.")
       .def_property_readonly(
           "world_from_axes",
@@ -294,23 +254,23 @@ void BindMeasurements(WindowClass* window) {
                              "A dict with the arguments of add_pose_prior() for each prior.")
       .def_property_readonly(
           "point_observation_rejected",
-          [](const WindowData& self) { return RejectedOf(self.point_observations); },
+          ColumnGetter(&WindowData::point_observations, &WindowData::PointObservation::rejected),
           "Whether the solver took each observation for an outlier.")
       .def_property_readonly(
           "line_observation_rejected",
-          [](const WindowData& self) { return RejectedOf(self.line_observations); },
+          ColumnGetter(&WindowData::line_observations, &WindowData::LineObservation::rejected),
           "The same for the observations of lines.")
       .def_property_readonly(
           "parallel_rejected",
-          [](const WindowData& self) { return RejectedOf(self.parallel_pairs); },
+          ColumnGetter(&WindowData::parallel_pairs, &WindowData::LinePair::rejected),
           "The same for pairs of parallel lines.")
       .def_property_readonly(
           "perpendicular_rejected",
-          [](const WindowData& self) { return RejectedOf(self.perpendicular_pairs); },
+          ColumnGetter(&WindowData::perpendicular_pairs, &WindowData::LinePair::rejected),
           "The same for pairs of perpendicular lines.")
       .def_property_readonly(
           "axis_alignment_rejected",
-          [](const WindowData& self) { return RejectedOf(self.axis_alignments); },
+          ColumnGetter(&WindowData::axis_alignments, &WindowData::AxisAlignment::rejected),
           "The same for lines along an axis.");
 }
 

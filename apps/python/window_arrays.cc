@@ -162,32 +162,19 @@ void AddPosePrior(WindowData* window, int64_t keyframe, py::handle cam_from_worl
 }
 
 py::array_t<double> PosesOf(const WindowData& window) {
-  py::array_t<double> poses(
-      {static_cast<py::ssize_t>(window.keyframes.size()), py::ssize_t{4}, py::ssize_t{4}});
-  double* to = poses.mutable_data();
-  for (const WindowData::Keyframe& keyframe : window.keyframes) {
-    Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> matrix(to);
-    matrix = PoseMatrix(keyframe.cam_from_world);
-    to += 16;
-  }
-  return poses;
+  return Matrices<4>(window.keyframes, [](const WindowData::Keyframe& keyframe) {
+    return PoseMatrix(keyframe.cam_from_world);
+  });
 }
 
-py::array PointsOf(const WindowData& window) {
-  RowMajorMatrix rows(window.points.size(), 3);
-  for (size_t i = 0; i < window.points.size(); ++i) {
-    rows.row(i) = window.points[i].position.transpose();
-  }
-  return py::cast(std::move(rows));
+RowMajorMatrix PointsOf(const WindowData& window) {
+  return Rows(window.points, 3,
+              [](const WindowData::Point& point, auto row) { row = point.position.transpose(); });
 }
 
-py::array LinesOf(const WindowData& window) {
-  RowMajorMatrix rows(window.lines.size(), 6);
-  for (size_t i = 0; i < window.lines.size(); ++i) {
-    const LineSegment3& segment = window.lines[i].segment;
-    rows.row(i) << segment.start.transpose(), segment.end.transpose();
-  }
-  return py::cast(std::move(rows));
+RowMajorMatrix LinesOf(const WindowData& window) {
+  return Rows(window.lines, 6,
+              [](const WindowData::Line& line, auto row) { FillEndPoints(line.segment, row); });
 }
 
 }  // namespace msc_vo

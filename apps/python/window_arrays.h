@@ -7,6 +7,7 @@
 
 #include <pybind11/numpy.h>
 
+#include "apps/python/arrays.h"
 #include "msc_vo/bundle_adjustment/window_data.h"
 
 namespace msc_vo {
@@ -36,7 +37,7 @@ void AddPosePrior(WindowData* window, int64_t keyframe, pybind11::handle cam_fro
 
 /// (N, 4, 4), (N, 3) and (N, 6) copies of the states.
 pybind11::array_t<double> PosesOf(const WindowData& window);
-pybind11::array PointsOf(const WindowData& window);
-pybind11::array LinesOf(const WindowData& window);
+RowMajorMatrix PointsOf(const WindowData& window);
+RowMajorMatrix LinesOf(const WindowData& window);
 
 }  // namespace msc_vo

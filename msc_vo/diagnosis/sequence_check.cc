@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <exception>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -197,6 +198,8 @@ bool StopsRun(const Finding& finding) {
 }  // namespace
 
 Findings CheckSequence(const RgbdDecoder& decoder, const SequenceCheckOptions& options) {
+  std::string error;
+  if (!options.odometry.IsValid(&error)) throw std::invalid_argument(error);
   const SequenceIndex& index = decoder.index();
   const Calibration& calibration = decoder.calibration();
   Findings findings;

@@ -22,7 +22,7 @@ struct SequenceCheckOptions {
 /// Checks a sequence before a run: files, stamps and gaps, image sizes and bit depths, exposure and
 /// blur, range and byte order of depth, registration of depth to colour, texture, and whether the
 /// ground truth belongs to the images. Problems of the sequence are reported as findings, not
-/// thrown.
+/// thrown. Throws std::invalid_argument on invalid options of the odometry.
 Findings CheckSequence(const RgbdDecoder& decoder, const SequenceCheckOptions& options = {});
 
 /// The part of CheckSequence() that takes less than 0.3 s: four images are decoded, and no file is

@@ -141,20 +141,10 @@ struct FrameBuilder::State {
   }
 };
 
-bool FrameBuilderOptions::IsValid(std::string* error) const {
-  if (!points.IsValid(error) || !lines.IsValid(error) || !noise.IsValid(error)) return false;
-  if (!(min_depth > 0.0 && max_depth > min_depth)) {
-    *error = "depth range: 0 < min_depth < max_depth (metres) must hold";
-    return false;
-  }
-  return true;
-}
-
 FrameBuilder::FrameBuilder(const FrameBuilderOptions& options, const PinholeCamera& camera,
                            const LensDistortion& distortion) {
   std::string error;
-  if (!options.IsValid(&error) || !camera.IsValid(&error) ||
-      !IsInvertible(distortion, camera, &error)) {
+  if (!camera.IsValid(&error) || !IsInvertible(distortion, camera, &error)) {
     throw std::invalid_argument("FrameBuilder: " + error);
   }
   state_ = std::make_unique<State>(options, camera, distortion);

@@ -5,7 +5,6 @@
 
 #include <functional>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "msc_vo/camera/lens_distortion.h"
@@ -30,8 +29,6 @@ struct FrameBuilderOptions {
   double min_depth = 0.2;  ///< metres; depth outside [min_depth, max_depth] is invalid
   double max_depth = 10.0;
   bool extract_planes = true;
-
-  bool IsValid(std::string* error) const;
 };
 
 using Tasks = std::vector<std::function<void()>>;
@@ -54,7 +51,8 @@ struct FrameBuilderTimes {
 /// depths, and undistorts them. Keeps its buffers between calls; not thread-safe.
 class FrameBuilder {
  public:
-  /// Throws std::invalid_argument on invalid options or an invalid camera.
+  /// The options must be valid (OdometryOptions::IsValid). Throws std::invalid_argument on an
+  /// invalid camera.
   FrameBuilder(const FrameBuilderOptions& options, const PinholeCamera& camera,
                const LensDistortion& distortion);
   ~FrameBuilder();

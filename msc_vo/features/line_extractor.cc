@@ -123,21 +123,8 @@ struct LineExtractor::Detectors {
   }
 };
 
-bool LineExtractorOptions::IsValid(std::string* error) const {
-  if (max_lines < 0) {
-    *error = "lines.max_lines must not be negative";
-  } else if (!(min_length > 0.0 && min_length <= 1.0)) {
-    *error = "lines.min_length must be in (0, 1] (fraction of the image's shorter side)";
-  } else {
-    return true;
-  }
-  return false;
-}
-
 LineExtractor::LineExtractor(const LineExtractorOptions& options)
     : options_(options), detectors_(std::make_unique<Detectors>()) {
-  std::string error;
-  if (!options.IsValid(&error)) throw std::invalid_argument("LineExtractor: " + error);
   if (options.detector == LineDetector::kLsd) {
     detectors_->lsd = cv::createLineSegmentDetector(cv::LSD_REFINE_STD);
   }

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -26,8 +25,6 @@ struct LineExtractorOptions {
   /// Shortest line, as a fraction of the image's shorter side: 24 px of 480. The standard deviation
   /// of the direction of such a line is 3.4 degrees (1 px at each end).
   double min_length = 0.05;
-
-  bool IsValid(std::string* error) const;
 };
 
 /// Detects line segments and computes their LBD descriptors.
@@ -39,7 +36,7 @@ struct LineExtractorOptions {
 /// Keeps its buffers between calls; not thread-safe.
 class LineExtractor {
  public:
-  /// Throws std::invalid_argument on invalid options.
+  /// The options must be valid (OdometryOptions::IsValid).
   explicit LineExtractor(const LineExtractorOptions& options);
   ~LineExtractor();
 

@@ -140,24 +140,7 @@ std::vector<RefinedCorner> RefineCorners(const cv::Mat& level, const cv::Mat& sm
 
 }  // namespace
 
-bool PointExtractorOptions::IsValid(std::string* error) const {
-  if (num_points < 0) {
-    *error = "points.num_points must not be negative";
-  } else if (num_levels < 1) {
-    *error = "points.num_levels must be at least 1";
-  } else if (min_fast_threshold < 1 || fast_threshold > 255) {
-    *error = "points: FAST thresholds must be in [1, 255]";
-  } else if (min_fast_threshold > fast_threshold) {
-    *error = "points.min_fast_threshold must not exceed points.fast_threshold";
-  } else {
-    return true;
-  }
-  return false;
-}
-
 PointExtractor::PointExtractor(const PointExtractorOptions& options) : options_(options) {
-  std::string error;
-  if (!options.IsValid(&error)) throw std::invalid_argument("PointExtractor: " + error);
   levels_.resize(options.num_levels);
   // The number of points is proportional to the level's side length, as in ORB: for level l the
   // fraction q^l (1 - q) / (1 - q^levels).

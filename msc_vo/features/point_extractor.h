@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -15,21 +14,19 @@ namespace msc_vo {
 struct PointExtractorOptions {
   /// Largest number of points per image; distributed over the levels in inverse proportion to their
   /// scale.
-  int num_points = 1000;
+  int num_points = 600;
   /// Levels of the image pyramid; those that become too small are omitted. With 8, points are
   /// matched over a ratio of distances of 1.2^8 = 4.3.
   int num_levels = 8;
   int fast_threshold = 20;     ///< grey values, of a FAST corner
   int min_fast_threshold = 7;  ///< grey values, in cells without a corner at fast_threshold
-
-  bool IsValid(std::string* error) const;
 };
 
 /// Extracts FAST corners from an image pyramid, evenly distributed over the image, with orientation
 /// and descriptor. Keeps its buffers between calls; not thread-safe except for ExtractLevel().
 class PointExtractor {
  public:
-  /// Throws std::invalid_argument on invalid options.
+  /// The options must be valid (OdometryOptions::IsValid).
   explicit PointExtractor(const PointExtractorOptions& options);
 
   /// Returns the points of an 8-bit grey image, without depth, in pixels of that image. Sigma is

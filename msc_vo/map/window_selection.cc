@@ -103,6 +103,14 @@ void AddObservations(const KeyframeIndex& keyframes, const L& landmark,
   }
 }
 
+void AddLines(const KeyframeIndex& keyframes, const std::vector<const LineLandmark*>& lines,
+              WindowData* data) {
+  for (const LineLandmark* line : lines) {
+    data->lines.push_back({line->id, line->segment, false, line->noise, line->depth_offset});
+    AddObservations(keyframes, *line, &data->line_observations);
+  }
+}
+
 // Computes the parameter s of the point of the line a + s (b - a) that is nearest to the ray
 // origin + t ray. Returns false if the ray is nearly parallel to the line.
 bool IntersectRay(const LineSegment3& line, const Eigen::Vector3d& origin,
@@ -156,27 +164,11 @@ WindowData MakeWindow(const WindowSelectionOptions& options, const Map& map,
     data.points.push_back({point->id, point->position, false, point->noise});
     AddObservations(keyframes, *point, &data.point_observations);
   }
-  for (const LineLandmark* line : lines) {
-    data.lines.push_back({line->id, line->segment, false, line->noise, line->depth_offset});
-    AddObservations(keyframes, *line, &data.line_observations);
-  }
+  AddLines(keyframes, lines, &data);
   return data;
 }
 
 }  // namespace
-
-bool WindowSelectionOptions::IsValid(std::string* error) const {
-  if (max_keyframes < 1) {
-    *error = "window: max_keyframes must be at least 1";
-  } else if (max_fixed_keyframes < 0) {
-    *error = "window: max_fixed_keyframes must not be negative";
-  } else if (min_observations < 1) {
-    *error = "window: min_observations must be at least 1";
-  } else {
-    return true;
-  }
-  return false;
-}
 
 WindowData::PointObservation MakeObservation(const Keyframe& keyframe, const PointLandmark& point,
                                              int feature_index) {
@@ -212,10 +204,22 @@ WindowData SelectWindow(const WindowSelectionOptions& options, const Map& map, K
   return MakeWindow(options, map, window, map.FindKeyframe(keyframe)->frame->camera);
 }
 
-WindowData SelectWholeMap(const WindowSelectionOptions& options, const Map& map) {
-  std::set<KeyframeId> window;
-  for (const auto& [id, keyframe] : map.keyframes()) window.insert(id);
-  return MakeWindow(options, map, window, map.keyframes().back().second.frame->camera);
+WindowData SelectLines(const WindowSelectionOptions& options, const Map& map) {
+  WindowData data;
+  data.camera = map.keyframes().back().second.frame->camera;
+  KeyframeIndex keyframes(map);
+  for (const auto& [id, keyframe] : map.keyframes()) {
+    data.keyframes.push_back({id, keyframe.cam_from_world, true});
+    keyframes.Add(keyframe);
+  }
+  std::vector<const LineLandmark*> lines;
+  for (const auto& [id, line] : map.landmarks<LineLandmark>()) {
+    if (static_cast<int>(line.observations.size()) >= options.min_observations) {
+      lines.push_back(&line);
+    }
+  }
+  AddLines(keyframes, lines, &data);
+  return data;
 }
 
 WindowData SelectSession(const WindowSelectionOptions& options, const Map& map) {

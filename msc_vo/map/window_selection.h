@@ -3,8 +3,6 @@
 
 #pragma once
 
-#include <string>
-
 #include "msc_vo/bundle_adjustment/window_data.h"
 #include "msc_vo/map/map.h"
 
@@ -19,8 +17,6 @@ struct WindowSelectionOptions {
   /// Smallest number of observations of a landmark. One observation adds as many unknowns as
   /// equations, apart from its depth.
   int min_observations = 2;
-
-  bool IsValid(std::string* error) const;
 };
 
 /// What makes a keyframe part of a window.
@@ -38,8 +34,8 @@ enum class WindowLinks {
 WindowData SelectWindow(const WindowSelectionOptions& options, const Map& map, KeyframeId keyframe,
                         WindowLinks links = WindowLinks::kLandmarks);
 
-/// Selects all keyframes of a map that is not empty.
-WindowData SelectWholeMap(const WindowSelectionOptions& options, const Map& map);
+/// Selects all lines of a map that is not empty, and all keyframes, which are fixed.
+WindowData SelectLines(const WindowSelectionOptions& options, const Map& map);
 /// Selects the keyframes of the present session, at least one. Those of earlier ones are fixed, or
 /// left out.
 WindowData SelectSession(const WindowSelectionOptions& options, const Map& map);

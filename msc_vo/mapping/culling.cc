@@ -89,19 +89,6 @@ bool IsRedundant(const CullingOptions& options, const Map& map, const KeyframeIn
 
 }  // namespace
 
-bool CullingOptions::IsValid(std::string* error) const {
-  if (probation_keyframes < 1) {
-    *error = "culling: probation_keyframes must be at least 1";
-  } else if (!(min_found_ratio >= 0.0 && min_found_ratio <= 1.0)) {
-    *error = "culling: min_found_ratio must be in [0, 1]";
-  } else if (!(redundant_ratio > 0.0 && redundant_ratio <= 1.0)) {
-    *error = "culling: redundant_ratio must be in (0, 1]";
-  } else {
-    return true;
-  }
-  return false;
-}
-
 void CullLandmarks(const CullingOptions& options, KeyframeId newest, Probation* probation,
                    Map* map) {
   ForEachLandmarkKind([&](auto kind) {

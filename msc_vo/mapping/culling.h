@@ -4,7 +4,6 @@
 #pragma once
 
 #include <set>
-#include <string>
 
 #include "msc_vo/map/map.h"
 
@@ -20,8 +19,6 @@ struct CullingOptions {
   /// A keyframe is redundant if more than this fraction of its landmarks is observed by three other
   /// keyframes, points at most one pyramid level coarser.
   double redundant_ratio = 0.9;
-
-  bool IsValid(std::string* error) const;
 };
 
 /// Landmarks on probation.

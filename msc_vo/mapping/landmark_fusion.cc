@@ -75,15 +75,6 @@ void FuseInto(const FusionOptions& options, KeyframeId source, KeyframeId target
 
 }  // namespace
 
-bool FusionOptions::IsValid(std::string* error) const {
-  if (!matchers.IsValid(error)) return false;
-  if (max_neighbours < 0) {
-    *error = "fusion: max_neighbours must not be negative";
-    return false;
-  }
-  return true;
-}
-
 void FuseLandmarks(const FusionOptions& options, KeyframeId id, Map* map) {
   ForEachLandmarkKind([&](auto kind) {
     using L = typename decltype(kind)::Landmark;

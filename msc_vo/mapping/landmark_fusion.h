@@ -3,8 +3,6 @@
 
 #pragma once
 
-#include <string>
-
 #include "msc_vo/map/map.h"
 #include "msc_vo/matching/landmark_matchers.h"
 
@@ -13,8 +11,6 @@ namespace msc_vo {
 struct FusionOptions {
   MatcherOptions matchers;
   int max_neighbours = 10;  ///< covisible keyframes that are searched; the size of the window
-
-  bool IsValid(std::string* error) const;
 };
 
 /// Matches the landmarks of keyframe `id` with the features of its covisible keyframes, and theirs

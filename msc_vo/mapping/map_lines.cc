@@ -21,10 +21,7 @@ std::map<LandmarkId, RefinedLine> RefineMapLines(const MapperOptions& options, c
   const SceneAxes& axes = submap.axes;
   std::map<LandmarkId, RefinedLine> refined;
   if (axes.estimator().state() != AxesState::kRefined || map.keyframes().empty()) return refined;
-  WindowData window = SelectWholeMap(options.selection, map);
-  for (WindowData::Keyframe& keyframe : window.keyframes) keyframe.fixed = true;
-  window.points = {};  // frees their memory
-  window.point_observations = {};
+  WindowData window = SelectLines(options.selection, map);
   submap.noise.Apply(&window);
   axes.AddAllAlignments(&window);
   pairs.Add(pairs.Find(window), &window);

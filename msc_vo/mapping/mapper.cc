@@ -4,8 +4,6 @@
 #include "msc_vo/mapping/mapper.h"
 
 #include <cassert>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
 #include "msc_vo/map/map_validation.h"
@@ -18,12 +16,6 @@ namespace msc_vo {
 
 namespace {
 
-const MapperOptions& Validated(const MapperOptions& options) {
-  std::string error;
-  if (!options.IsValid(&error)) throw std::invalid_argument(error);
-  return options;
-}
-
 void DescribeAxes(const AxesEstimator& axes, MappingSummary* summary) {
   summary->axes_state = axes.state();
   summary->num_axes_refinements = axes.num_refinements();
@@ -32,7 +24,7 @@ void DescribeAxes(const AxesEstimator& axes, MappingSummary* summary) {
 }  // namespace
 
 Mapper::Mapper(const MapperOptions& options)
-    : options_(Validated(options)),
+    : options_(options),
       atlas_(options.axes, options.noise),
       calibration_(options.readout_time),
       care_(options.culling, options.fusion),

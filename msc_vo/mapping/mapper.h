@@ -64,7 +64,7 @@ class KeyframeTask {
 /// Works on the current one.
 class Mapper {
  public:
-  /// Throws std::invalid_argument on options that are not valid.
+  /// The options must be valid (OdometryOptions::IsValid).
   explicit Mapper(const MapperOptions& options);
 
   void SetWindowObserver(WindowObserver observer) { optimizer_.SetObserver(std::move(observer)); }

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
 #include "msc_vo/map/window_selection.h"
@@ -54,7 +53,6 @@ struct MapperOptions {
 
   /// Whether windows contain structural terms.
   bool MapHasStructure() const { return axes.enabled || pairs.parallel || pairs.perpendicular; }
-  bool IsValid(std::string* error) const;
 };
 
 }  // namespace msc_vo

@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -16,10 +15,6 @@ namespace msc_vo {
 struct MatcherOptions {
   PointMatcherOptions point_matcher;
   LineMatcherOptions line_matcher;
-
-  bool IsValid(std::string* error) const {
-    return point_matcher.IsValid(error) && line_matcher.IsValid(error);
-  }
 };
 
 /// Matches candidates of one kind with the features of a frame (MatchPoints, MatchLines).

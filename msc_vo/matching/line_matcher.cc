@@ -75,17 +75,6 @@ bool HasSimilarAngle(const Viewpoint& view, const LineLandmark& line) {
 
 }  // namespace
 
-bool LineMatcherOptions::IsValid(std::string* error) const {
-  if (!(max_angle > 0.0 && max_angle <= 90.0)) {
-    *error = "line matcher: max_angle must be in (0, 90] degrees";
-  } else if (max_distance < 0 || max_distance > 256) {
-    *error = "line matcher: max_distance must be between 0 and 256 bits";
-  } else {
-    return true;
-  }
-  return false;
-}
-
 LineCandidate CandidateOf(const LineLandmark& line) {
   LineCandidate candidate;
   candidate.id = line.id;

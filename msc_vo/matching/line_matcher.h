@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "msc_vo/geometry/rigid3.h"
@@ -18,8 +17,6 @@ struct LineMatcherOptions {
   double max_angle = 8.0;
   /// Largest Hamming distance, bits, between LBD descriptors of two observations of one line.
   int max_distance = 80;
-
-  bool IsValid(std::string* error) const;
 };
 
 /// As PointMatch.

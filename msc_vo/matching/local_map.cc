@@ -13,19 +13,6 @@ namespace msc_vo {
 
 namespace {
 
-// The keyframes that observe the matched landmarks, most shared landmarks first.
-std::vector<Map::Covisible> RankObservers(const Map& map, const FrameMatches& matches) {
-  ObserverCount observers(map);
-  ForEachLandmarkKind([&](auto kind) {
-    using L = typename decltype(kind)::Landmark;
-    for (const auto& match : OfKind<L>(matches)) {
-      const L* landmark = match.inlier ? map.Find<L>(match.id) : nullptr;
-      if (landmark != nullptr) observers.Add(*landmark);
-    }
-  });
-  return observers.Ranked();
-}
-
 std::set<KeyframeId> SelectKeyframes(const Map& map, const FrameMatches& matches,
                                      KeyframeId fallback, int max_keyframes,
                                      KeyframeId* reference) {
@@ -52,6 +39,18 @@ void AddIfVisible(const Viewpoint& view, const L& landmark, LocalMap* local) {
 }
 
 }  // namespace
+
+std::vector<Map::Covisible> RankObservers(const Map& map, const FrameMatches& matches) {
+  ObserverCount observers(map);
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    for (const auto& match : OfKind<L>(matches)) {
+      const L* landmark = match.inlier ? map.Find<L>(match.id) : nullptr;
+      if (landmark != nullptr) observers.Add(*landmark);
+    }
+  });
+  return observers.Ranked();
+}
 
 LocalMap LandmarksOf(const Map& map, const Keyframe& keyframe) {
   LocalMap landmarks;

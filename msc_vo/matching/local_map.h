@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <vector>
+
 #include "msc_vo/map/map.h"
 #include "msc_vo/matching/frame_matches.h"
 
@@ -12,6 +14,9 @@ namespace msc_vo {
 struct LocalMap : ByKind<Candidates> {
   KeyframeId reference = kNoId;  ///< the keyframe that shares most landmarks with the frame
 };
+
+/// The keyframes that observe the matched landmarks (inliers), most shared landmarks first.
+std::vector<Map::Covisible> RankObservers(const Map& map, const FrameMatches& matches);
 
 /// The landmarks of a keyframe as candidates, wherever they would project to: for a search without
 /// a prediction. Their pixels and pyramid levels are not set.

@@ -70,17 +70,6 @@ Best FindBest(const PointMatcherOptions& options, const Frame& frame,
 
 }  // namespace
 
-bool PointMatcherOptions::IsValid(std::string* error) const {
-  if (max_distance < 0 || max_distance > 256) {
-    *error = "point matcher: max_distance must be between 0 and 256 bits";
-  } else if (!(max_ratio > 0.0 && max_ratio <= 1.0)) {
-    *error = "point matcher: max_ratio must be in (0, 1]";
-  } else {
-    return true;
-  }
-  return false;
-}
-
 PointCandidate CandidateOf(const PointLandmark& point) {
   PointCandidate candidate;
   candidate.id = point.id;

@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "msc_vo/geometry/rigid3.h"
@@ -19,8 +18,6 @@ struct PointMatcherOptions {
   /// Largest ratio of the best to the second best distance, unless the two are on different levels
   /// (one corner detected at two scales).
   double max_ratio = 0.9;
-
-  bool IsValid(std::string* error) const;
 };
 
 /// The match of one feature of a frame with a landmark of the map, or with a feature of another

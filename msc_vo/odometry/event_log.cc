@@ -98,7 +98,7 @@ void EventLog::LogMapping(const MappingStep& step) {
     num_refused_joins_ = summary.num_refused_joins;
     Log().info(
         "maps not joined at keyframe {}: several keyframes were found in both, but the motion of "
-        "the camera or the Manhattan axes exclude it",
+        "the camera or the Manhattan axes rule the join out",
         summary.keyframe);
   }
   if (summary.loop) LogLoop(*summary.loop);

@@ -14,6 +14,7 @@
 #include "msc_vo/mapping/loop_closer.h"
 #include "msc_vo/mapping/plane_map.h"
 #include "msc_vo/matching/local_map.h"
+#include "msc_vo/odometry/input_checks.h"
 #include "msc_vo/self_calibration/keyframe_intrinsics.h"
 #include "msc_vo/tracking/place_search.h"
 
@@ -50,7 +51,7 @@ void AddMatches(const Keyframe& keyframe, Matches<L>* matches) {
 class MapMerger {
  public:
   MapMerger(const OdometryOptions& options, MapContents first)
-      : options_(EffectiveOptions(options)),
+      : options_(ValidatedOptions(options)),
         atlas_(options_.mapping.axes, options_.mapping.noise),
         care_(options_.mapping.culling, options_.mapping.fusion) {
     loops_.AddEdges(first.loops);

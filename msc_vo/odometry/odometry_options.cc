@@ -41,6 +41,41 @@ void ShareLosses(OdometryOptions* options) {
   pose.reject_chi2_4 = window.reject_chi2_4;
 }
 
+// Error message of a relation between options that does not hold, or nullptr.
+const char* RelationError(const OdometryOptions& options) {
+  if (!(options.features.min_depth < options.features.max_depth)) {
+    return "depth range: 0 < min_depth < max_depth (metres) must hold";
+  }
+  const PointExtractorOptions& points = options.features.points;
+  if (points.min_fast_threshold > points.fast_threshold) {
+    return "points.min_fast_threshold must not exceed points.fast_threshold";
+  }
+  const KeyframePolicyOptions& keyframes = options.tracking.keyframes;
+  if (keyframes.min_interval > keyframes.max_interval) {
+    return "keyframe policy: 0 <= min_interval <= max_interval must hold (seconds)";
+  }
+  if (options.tracking.min_matches > options.tracking.min_initial_features) {
+    return "tracker: 3 <= min_matches <= min_initial_features must hold";
+  }
+  return nullptr;
+}
+
+// Error message of an invalid option that ListOptions() does not contain, or nullptr. NaN is
+// invalid.
+const char* UnlistedError(const OdometryOptions& options) {
+  if (!(options.tracking.segments.search_interval >= 0.0)) {
+    return "segments: search_interval must not be negative";
+  }
+  if (options.mapping.selection.min_observations < 1) {
+    return "window: min_observations must be at least 1";
+  }
+  const double redundant_ratio = options.mapping.culling.redundant_ratio;
+  if (!(redundant_ratio > 0.0 && redundant_ratio <= 1.0)) {
+    return "culling: redundant_ratio must be in (0, 1]";
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 const char* ToString(Mode mode) {
@@ -69,8 +104,15 @@ bool OdometryOptions::IsValid(std::string* error) const {
   }
   OdometryOptions effective = EffectiveOptions(*this);
   if (!AreInRange(ListOptions(&effective), error)) return false;
-  return effective.features.IsValid(error) && effective.tracking.IsValid(error) &&
-         effective.mapping.IsValid(error) && effective.snapshots.IsValid(error);
+  const char* problem = RelationError(effective);
+  if (problem == nullptr) problem = UnlistedError(effective);
+  if (problem != nullptr) {
+    *error = problem;
+    return false;
+  }
+  // These components have relations and options without a range, too.
+  return effective.tracking.pose.IsValid(error) && effective.mapping.noise.IsValid(error) &&
+         effective.mapping.window.IsValid(error);
 }
 
 OdometryOptions EffectiveOptions(OdometryOptions options) {

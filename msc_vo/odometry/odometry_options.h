@@ -33,8 +33,8 @@ struct OdometryOptions {
   bool use_lines = true;
   /// Warp each depth image to the time of its colour image, by the motion between the two.
   bool align_depth = true;
-  /// 1: all stages in sequence. 2 or more: mapping in parallel with tracking, and so many threads
-  /// for the features of an image, up to ten. The result does not depend on it.
+  /// 1: all stages in sequence. 2 or more: mapping in parallel with tracking, and that many
+  /// threads for the features of an image, ten at most. The result does not depend on it.
   int threads = 2;
   /// Local mapping runs in Odometry::RunMapping(), in the thread that calls it; what is unfinished
   /// when a frame needs its map runs in Process(). The result does not depend on it.

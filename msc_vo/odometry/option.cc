@@ -42,8 +42,9 @@ void ListGeneral(OdometryOptions* options, OptionLister* list) {
             "Warp each depth image to the time of its colour image if their time stamps differ.")
       .MakeBasic("Disable if the time stamps of the depth images are wrong.");
   list->Add("threads", &options->threads, {1, 256, "threads"},
-            "1: all stages in sequence. 2 or more: mapping in parallel with tracking, and so many "
-            "threads for the features of an image, up to ten. The result does not depend on it.")
+            "1: all stages in sequence. 2 or more: mapping in parallel with tracking, and "
+            "that many threads for the features of an image, ten at most. The result does not "
+            "depend on it.")
       .MakeBasic("Set to 1 if the process may use one processor only.");
   list->Add("external_mapping", &options->external_mapping,
             "Local mapping runs when the program that embeds the odometry calls RunMapping(), and "

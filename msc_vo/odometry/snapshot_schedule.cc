@@ -8,15 +8,6 @@
 
 namespace msc_vo {
 
-bool SnapshotOptions::IsValid(std::string* error) const {
-  const char* negative = !(insertion_latency >= 0.0) ? "insertion_latency"
-                         : !(latency >= 0.0)         ? "latency"
-                                                     : nullptr;
-  if (negative == nullptr) return true;
-  *error = std::string("options: mapping.") + negative + " must not be negative";
-  return false;
-}
-
 SnapshotSchedule::SnapshotSchedule(const SnapshotOptions& options,
                                    std::unique_ptr<MappingRunner> runner, MapSnapshotPtr empty,
                                    Recorder record)

@@ -8,7 +8,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <string>
 
 #include "msc_vo/odometry/mapping_runner.h"
 
@@ -31,8 +30,6 @@ struct SnapshotOptions {
   /// No frame waits for a map, as with a live camera: a map that is late is used from the first
   /// frame that finds it ready. A run is repeatable as long as no map is late.
   bool realtime = false;
-
-  bool IsValid(std::string* error) const;
 };
 
 /// Passes keyframes to the mapper and determines which map each frame is tracked in. The first map

@@ -35,7 +35,7 @@ BinaryWord WordOf(const Descriptor& descriptor, int index) {
 // A set of words as bits; iteration is in ascending order.
 class WordSet {
  public:
-  // Adds the words of all features. The words of each index begin at a number of their own.
+  // Adds the words of all features. Each subset of bits has its own range of words.
   template <typename Feature>
   void Add(const std::vector<Feature>& features, int num_words, int first_table) {
     for (const Feature& feature : features) {

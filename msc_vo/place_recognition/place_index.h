@@ -40,14 +40,14 @@ class PlaceIndex {
   std::vector<Place> Query(const Frame& frame, int max_places) const;
 
  private:
-  // Number of a keyframe, in the order in which they were added.
+  // Position of a keyframe in the order of insertion.
   using Slot = PostingList::Slot;
   struct Entry {
     KeyframeId keyframe = kNoId;  // kNoId: it was removed
     std::shared_ptr<const Frame> frame;
     int num_words = 0;
   };
-  // Its list has the slots of removed keyframes until these are as many as the others.
+  // Its list keeps the slots of removed keyframes until half of all slots are removed.
   struct Word {
     PostingList slots;
     int num_keyframes = 0;  // that were not removed

@@ -17,14 +17,6 @@ constexpr double kMaxRival = 0.8;
 
 }  // namespace
 
-bool RelocalizerOptions::IsValid(std::string* error) const {
-  if (min_inliers < 3) {
-    *error = "relocalizer: min_inliers must be at least 3";
-    return false;
-  }
-  return true;
-}
-
 std::optional<Relocalization> Relocalize(const RelocalizerOptions& options,
                                          const LineMatcherOptions& line_matcher, const Frame& frame,
                                          const Map& map, const Keyframe& keyframe) {

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "msc_vo/map/map.h"
 #include "msc_vo/matching/frame_matches.h"
@@ -16,8 +15,6 @@ struct RelocalizerOptions {
   /// Points, and twice the lines, that support a pose: more than chance yields among some hundred
   /// wrong matches.
   int min_inliers = 12;
-
-  bool IsValid(std::string* error) const;
 };
 
 struct Relocalization {

@@ -36,6 +36,8 @@ std::vector<CalibratedValue> ListCalibratedValues(const RunSummary& summary) {
   const auto& k = intrinsics.distortion.k;
   const PinholeCamera& depth = summary.depth_camera.camera;
   const Eigen::Vector3d& translation = summary.depth_camera.depth_from_color.translation();
+  // Shifts of the principal points are in focal lengths of the colour images, to which the depth
+  // images of an odometry are registered, well or badly: their pixels are those of colour images.
   const double f = camera.FocalLength();
   return {make("fx", "px", camera.fx, camera.fx, S::kFocalLength, G::kFocalLength),
           make("fy", "px", camera.fy, camera.fy, S::kFocalLength, G::kFocalLength),

@@ -3,8 +3,6 @@
 
 #pragma once
 
-#include <string>
-
 namespace msc_vo {
 
 /// Noise of the depth sensor and of the features: initial values, which NoiseEstimator refines
@@ -23,9 +21,6 @@ struct SensorNoiseOptions {
   double point_sigma = 0.5;
   /// Standard deviation of the distance of a segment's end point from the true line, pixels.
   double line_sigma = 0.25;
-
-  /// If an option is invalid, `error` names it and its valid range.
-  bool IsValid(std::string* error) const;
 };
 
 }  // namespace msc_vo

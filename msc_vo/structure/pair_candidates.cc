@@ -78,14 +78,6 @@ AngleDeviation PerpendicularDeviation(const DirectionEstimate& a, const Directio
 
 }  // namespace
 
-bool StructuralPairOptions::IsValid(std::string* error) const {
-  if (!(max_angle > 0.0 && max_angle < 45.0)) {
-    *error = "pairs.max_angle must be in (0, 45) degrees";
-    return false;
-  }
-  return true;
-}
-
 PairCandidates FindPairCandidates(const StructuralPairOptions& options, const WindowData& window) {
   const std::vector<Line> lines = KnownLines(options, window);
   const double max_angle = DegreesToRadians(options.max_angle);

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "msc_vo/bundle_adjustment/window_data.h"
@@ -18,8 +17,6 @@ struct StructuralPairOptions {
   /// Range around 0 and 90 degrees in which pairs are sought, degrees: wide enough to show how many
   /// pairs lie there by chance.
   double max_angle = 3.0;
-
-  bool IsValid(std::string* error) const;
 };
 
 /// Pairs of lines of a window whose angle is near to 0 or 90 degrees.

@@ -4,7 +4,6 @@
 #include "msc_vo/structure/structural_pairs.h"
 
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -71,10 +70,7 @@ std::vector<WindowData::LinePair> MakePairs(
 
 }  // namespace
 
-StructuralPairs::StructuralPairs(const StructuralPairOptions& options) : options_(options) {
-  std::string error;
-  if (!options.IsValid(&error)) throw std::invalid_argument("StructuralPairs: " + error);
-}
+StructuralPairs::StructuralPairs(const StructuralPairOptions& options) : options_(options) {}
 
 PairCandidates StructuralPairs::Find(const WindowData& window) const {
   if (!options_.parallel && !options_.perpendicular) return {};

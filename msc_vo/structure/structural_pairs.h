@@ -24,7 +24,7 @@ namespace msc_vo {
 /// lines that are aligned with Manhattan axes are omitted: the alignment holds the same constraint.
 class StructuralPairs {
  public:
-  /// Throws std::invalid_argument on options that are not valid.
+  /// The options must be valid (OdometryOptions::IsValid).
   explicit StructuralPairs(const StructuralPairOptions& options);
 
   /// The candidates of a window whose lines have been aligned with axes; none if pairs are

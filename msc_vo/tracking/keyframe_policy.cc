@@ -30,17 +30,6 @@ bool IsClose(const F& /*feature*/) {
 
 }  // namespace
 
-bool KeyframePolicyOptions::IsValid(std::string* error) const {
-  if (!(min_tracked_ratio >= 0.0 && min_tracked_ratio <= 1.0)) {
-    *error = "keyframe policy: min_tracked_ratio must be in [0, 1]";
-  } else if (!(min_interval >= 0.0 && max_interval >= min_interval)) {
-    *error = "keyframe policy: 0 <= min_interval <= max_interval must hold (seconds)";
-  } else {
-    return true;
-  }
-  return false;
-}
-
 KeyframePolicy::TrackedRatios KeyframePolicy::ComputeRatios(const Frame& frame,
                                                             const FrameMatches& matches) const {
   struct Count {

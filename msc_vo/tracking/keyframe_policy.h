@@ -3,8 +3,6 @@
 
 #pragma once
 
-#include <string>
-
 #include "msc_vo/frame/frame.h"
 #include "msc_vo/matching/frame_matches.h"
 
@@ -19,8 +17,6 @@ struct KeyframePolicyOptions {
   /// multiples of usual intervals, so that rounding decides nothing.
   double min_interval = 0.045;
   double max_interval = 0.99;
-
-  bool IsValid(std::string* error) const;
 };
 
 /// Decides whether a tracked frame becomes a keyframe (paper: Keyframe Insertion), by the ratio of

@@ -29,7 +29,7 @@ Eigen::Vector3d PlaceOf(const LineCandidate& line) {
 }
 
 // The landmarks of a map that should be visible from a pose, without those that a surface in the
-// depth image of the frame occludes.
+// depth image of the frame occludes, or about which it says nothing.
 LocalMap UnoccludedLandmarks(const Map& map, const Frame& frame, const Rigid3& cam_from_world) {
   LocalMap local = SelectVisibleLandmarks(map, frame, cam_from_world);
   const auto is_hidden = [&](const auto& candidate) {
@@ -51,8 +51,7 @@ MatchCounts CountMatchesAt(const TrackerOptions& options, const Frame& frame, co
   PoseEstimator estimator(options, map, noise_scale, no_factors);
   const std::optional<FramePose> pose = estimator.MatchAndEstimate(
       options.pose, frame, local, options.prediction_radius, cam_from_world);
-  return CountMatches(frame, SizesOf(local),
-                      pose ? LandmarkInliers(pose->matches) : FrameMatches());
+  return {SizesOf(local), pose ? Sum(SizesOf(LandmarkInliers(pose->matches))) : 0};
 }
 
 // Whether a frame can be at a place.
@@ -62,14 +61,16 @@ enum class PlaceStatus {
   kExcluded,  // the frame does not match the map there
 };
 
-PlaceStatus ClassifyPlace(const MatchCounts& place, const MatchCounts& found) {
+PlaceStatus ClassifyPlace(const Frame& frame, const MatchCounts& place, const MatchCounts& found) {
   // Relative to the place that was found: with fewer landmarks in view, the map does not show most
   // of what the frame shows, so that missing matches prove nothing.
   constexpr double kMinCoverage = 0.5;
-  if (place.num_matchable == 0 || place.num_matchable < kMinCoverage * found.num_matchable) {
+  const int num_matchable = NumMatchable(frame, place, found);
+  if (num_matchable == 0 || num_matchable < kMinCoverage * Sum(found.in_view)) {
     return PlaceStatus::kUnknown;
   }
-  return HasComparableMatchRatio(place, found) ? PlaceStatus::kPossible : PlaceStatus::kExcluded;
+  return HasComparableMatchRatio(frame, place, found) ? PlaceStatus::kPossible
+                                                      : PlaceStatus::kExcluded;
 }
 
 }  // namespace
@@ -90,8 +91,9 @@ bool LookAlikes::AreExcluded(const TrackerOptions& options, const TrackedFrame& 
   if (!snapshot.map.KnowsKeyframe(tracked.reference)) return alignments_.empty();
   if (static_cast<int>(alignments_.size()) == kMaxAlignments) return false;  // there may be more
   const Rigid3 found_from_world = found.cam_from_reference * map.CamFromWorld(found.reference);
+  const Frame& frame = *tracked.frame;
   const auto counts_at = [&](const Rigid3& cam_from_world) {
-    return CountMatchesAt(options, *tracked.frame, map, snapshot.noise_scale, cam_from_world);
+    return CountMatchesAt(options, frame, map, snapshot.noise_scale, cam_from_world);
   };
   const std::vector<bool> same = AreSame(tracked, snapshot, map, found);
   std::optional<MatchCounts> at_found;
@@ -100,13 +102,13 @@ bool LookAlikes::AreExcluded(const TrackerOptions& options, const TrackedFrame& 
     if (same[i] || !map.KnowsKeyframe(alignment.other)) continue;
     if (!at_found) at_found = counts_at(found_from_world);
     const Rigid3 aligned_from_world = PoseBy(alignment, tracked, snapshot.map, map);
-    const PlaceStatus status = ClassifyPlace(counts_at(aligned_from_world), *at_found);
+    const PlaceStatus status = ClassifyPlace(frame, counts_at(aligned_from_world), *at_found);
     if (status == PlaceStatus::kExcluded) continue;
     if (status == PlaceStatus::kPossible) return false;
     // In a row of look-alikes, the place that was found has a copy on its other side, too.
     const Rigid3 opposite_from_world =
         found_from_world * aligned_from_world.Inverse() * found_from_world;
-    const PlaceStatus opposite = ClassifyPlace(counts_at(opposite_from_world), *at_found);
+    const PlaceStatus opposite = ClassifyPlace(frame, counts_at(opposite_from_world), *at_found);
     if (opposite != PlaceStatus::kExcluded) return false;
   }
   return true;

@@ -23,7 +23,7 @@ class LookAlikes {
 
   /// Whether the frame excludes all alignments with `map` except that of `found`. It excludes an
   /// alignment if it can match at least half as many landmarks at the pose by the alignment as at
-  /// the pose that was found (MatchCounts), but the match ratio there is less than half as large.
+  /// the pose that was found (NumMatchable), but the match ratio there is less than half as large.
   /// If it can match fewer, the same test at the pose on the other side of `found` decides.
   bool AreExcluded(const TrackerOptions& options, const TrackedFrame& tracked,
                    const MapSnapshot& snapshot, const Map& map, const Revisit& found) const;

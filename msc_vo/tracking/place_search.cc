@@ -8,8 +8,8 @@
 #include <set>
 
 #include "msc_vo/geometry/angles.h"
-#include "msc_vo/map/observer_count.h"
 #include "msc_vo/map/path_covariance.h"
+#include "msc_vo/matching/local_map.h"
 #include "msc_vo/pose_estimation/relocalizer.h"
 #include "msc_vo/tracking/frame_pose.h"
 #include "msc_vo/tracking/place_verification.h"
@@ -47,15 +47,10 @@ std::vector<KeyframeId> SelectBy(const std::vector<Place>& places, const Map& ma
 // landmarks with its reference keyframe.
 std::set<KeyframeId> NeighboursOf(const FrameMatches& matches, KeyframeId reference,
                                   const Map& map) {
-  ObserverCount observers(map);
-  ForEachLandmarkKind([&](auto kind) {
-    using L = typename decltype(kind)::Landmark;
-    for (const auto& match : OfKind<L>(matches)) {
-      if (const L* landmark = map.Find<L>(match.id)) observers.Add(*landmark);
-    }
-  });
   std::set<KeyframeId> neighbours{reference};
-  for (const Map::Covisible& observer : observers.Ranked()) neighbours.insert(observer.keyframe);
+  for (const Map::Covisible& observer : RankObservers(map, matches)) {
+    neighbours.insert(observer.keyframe);
+  }
   for (const Map::Covisible& covisible : map.FindCovisible(reference)) {
     neighbours.insert(covisible.keyframe);
   }
@@ -250,9 +245,9 @@ std::optional<Revisit> PlaceSearch::Relocalize(const TrackedFrame& tracked,
     return std::nullopt;
   }
   const FrameMatches matches = LandmarkInliers(pose->matches);
-  const MatchCounts at_place = CountMatches(frame, SizesOf(local), matches);
-  const MatchCounts in_own_map = CountMatches(frame, SizesOf(tracked.visible), tracked.matches);
-  if (!HasComparableMatchRatio(at_place, in_own_map)) return std::nullopt;
+  const MatchCounts at_place{SizesOf(local), Sum(SizesOf(matches))};
+  const MatchCounts in_own_map{SizesOf(tracked.visible), Sum(SizesOf(tracked.matches))};
+  if (!HasComparableMatchRatio(frame, at_place, in_own_map)) return std::nullopt;
   return Revisit{local.reference,
                  pose->cam_from_world * map.CamFromWorld(local.reference).Inverse(),
                  pose->summary.covariance, matches};

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -54,25 +55,28 @@ bool ExtendsBeyond(const Plane& plane, const Eigen::Vector3d& camera, const Map&
   return num_off >= num;
 }
 
-// The plane through three of the positions that has the fewest of them off it. Not empty.
-Plane DominantPlane(const Positions& positions, const Eigen::Vector3d& camera) {
+// The plane through three of the positions that has the fewest of them off it, and their number.
+struct DominantPlane {
+  Plane plane;
+  int num_off = 0;
+};
+
+// None if all positions are collinear. They must not be empty.
+std::optional<DominantPlane> FindDominantPlane(const Positions& positions,
+                                               const Eigen::Vector3d& camera) {
   constexpr int kNumTrials = 20;  // one is nearly enough if nearly all are coplanar
   std::mt19937 random(1);
   const auto draw = [&]() -> const Eigen::Vector3d& {
     return positions[random() % positions.size()];
   };
-  Plane best;
-  int least = static_cast<int>(positions.size()) + 1;
+  std::optional<DominantPlane> best;
   for (int trial = 0; trial < kNumTrials; ++trial) {
     const Eigen::Vector3d &a = draw(), &b = draw(), &c = draw();
     const Eigen::Vector3d normal = (b - a).cross(c - a).normalized();
     if (!(normal.norm() > 0.0)) continue;  // collinear
     const Plane plane(normal, -normal.dot(a));
     const int num = NumOffPlane(plane, camera, positions);
-    if (num < least) {
-      least = num;
-      best = plane;
-    }
+    if (!best || num < best->num_off) best = {plane, num};
   }
   return best;
 }
@@ -107,20 +111,25 @@ double Difference(const View& a, const View& b) {
 }  // namespace
 
 bool IsCoplanar(const Revisit& found, const Map& map, int min_matches) {
+  // A plane through three of ten positions always has few of them off it.
+  constexpr double kMaxOffRatio = 0.25;
   const Positions positions = MatchedPositions(found.matches, map);
   if (positions.empty()) return false;
   const Rigid3 cam_from_world = found.cam_from_reference * map.CamFromWorld(found.reference);
   const Eigen::Vector3d camera = cam_from_world.OriginInSource();
-  const Plane plane = DominantPlane(positions, camera);
-  return NumOffPlane(plane, camera, positions) < min_matches &&
-         ExtendsBeyond(plane, camera, map, min_matches);
+  const std::optional<DominantPlane> found_plane = FindDominantPlane(positions, camera);
+  if (!found_plane) return true;
+  const auto& [plane, num_off] = *found_plane;
+  const bool is_coplanar =
+      num_off < min_matches && num_off < kMaxOffRatio * static_cast<double>(positions.size());
+  return is_coplanar && ExtendsBeyond(plane, camera, map, min_matches);
 }
 
 bool ContradictsSurfaces(const TrackedFrame& tracked, const Map& own, const Revisit& found,
                          const Map& map) {
   // Twice the largest ratio of true revisits, in both directions (docs/lab/loops.md).
   constexpr double kMaxRatio = 0.01;
-  constexpr int kMinViolations = 10;  // about 1 % of the cells of an image
+  constexpr int kMinViolations = 10;  // of all views; matters where few cells can be compared
   std::vector<View> views{{tracked.frame.get(), tracked.cam_from_world}}, place;
   if (own.FindKeyframe(tracked.reference) != nullptr) {
     AppendViewsAround(own, tracked.reference, &views);

@@ -10,8 +10,8 @@ namespace msc_vo {
 
 /// Whether the landmarks that a frame matches are coplanar, but those of the map are not: the frame
 /// may show a picture or a sign, which exist more than once. Landmarks are coplanar if fewer than
-/// `min_matches` of them are farther from the dominant plane of the matched ones than 3 % of their
-/// distance from the camera.
+/// `min_matches`, and less than a quarter of the matched ones, are farther from the dominant plane
+/// of the matched ones than 3 % of their distance from the camera.
 bool IsCoplanar(const Revisit& found, const Map& map, int min_matches);
 
 /// Whether surfaces contradict that a frame shows the place in `map` at which it was `found`,

@@ -42,22 +42,21 @@ bool IsClearlyBetter(const TrackerOptions& options, const PoseSummary& far,
   return Support(far) > kClearlyBetter * (Support(near) + near.num_dynamic);
 }
 
-MatchCounts CountMatches(const Frame& frame, const PerKind<int>& in_view,
-                         const FrameMatches& matches) {
-  MatchCounts counts;
+int NumMatchable(const Frame& frame, const MatchCounts& place, const MatchCounts& other) {
+  int num_matchable = 0;
   ForEachLandmarkKind([&](auto kind) {
     using L = typename decltype(kind)::Landmark;
     const int num_features = static_cast<int>(FeaturesOf<L>(frame).size());
-    counts.num_matchable += std::min(in_view.Of<L>(), num_features);
+    num_matchable += std::min(place.in_view.Of<L>(), std::max(num_features, other.in_view.Of<L>()));
   });
-  counts.num_matched = Sum(SizesOf(matches));
-  return counts;
+  return num_matchable;
 }
 
-bool HasComparableMatchRatio(const MatchCounts& place, const MatchCounts& other) {
+bool HasComparableMatchRatio(const Frame& frame, const MatchCounts& place,
+                             const MatchCounts& other) {
   constexpr double kMinRelativeRatio = 0.5;
-  return static_cast<double>(place.num_matched) * other.num_matchable >=
-         kMinRelativeRatio * other.num_matched * place.num_matchable;
+  return static_cast<double>(place.num_matched) * Sum(other.in_view) >=
+         kMinRelativeRatio * other.num_matched * NumMatchable(frame, place, other);
 }
 
 bool ContradictsDepth(const TrackedFrame& tracked, const Map& map) {

@@ -20,22 +20,23 @@ bool IsClear(const FramePose& pose, const LocalMap& candidates);
 bool IsClearlyBetter(const TrackerOptions& options, const PoseSummary& far,
                      const PoseSummary& near);
 
-/// Landmarks of a map in view of a frame.
+/// Landmarks of a map that are in view of a frame at a place, and those of them that it matches.
 struct MatchCounts {
-  /// That the frame can match: of each kind at most as many as it has features, of which a map of
-  /// several visits has more.
-  int num_matchable = 0;
+  PerKind<int> in_view;
   int num_matched = 0;
 };
 
-/// `in_view`: numbers of landmarks in view. `matches`: inliers.
-MatchCounts CountMatches(const Frame& frame, const PerKind<int>& in_view,
-                         const FrameMatches& matches);
+/// Landmarks in view at a place that the frame can match, as compared with another place: of each
+/// kind at most as many as it has features, or as are in view at the other place, if that is more.
+/// A map of several visits has more landmarks in view than a frame can match.
+int NumMatchable(const Frame& frame, const MatchCounts& place, const MatchCounts& other);
 
-/// Whether the ratio of matched to matchable landmarks at a place is at least half of that at
-/// another place: the same place, seen from another direction, has a lower ratio, and one that
-/// looks alike a ratio that is lower still (docs/lab/tracking.md).
-bool HasComparableMatchRatio(const MatchCounts& place, const MatchCounts& other);
+/// Whether the ratio of matched to matchable landmarks at a place is at least half of the ratio of
+/// matched landmarks to those in view at another place. The same place, seen from another
+/// direction, has a lower ratio, and one that looks alike a ratio that is lower still
+/// (docs/lab/tracking.md).
+bool HasComparableMatchRatio(const Frame& frame, const MatchCounts& place,
+                             const MatchCounts& other);
 
 /// Whether the depth images of the frame and of its reference keyframe contradict its pose in more
 /// cells (NumFreeSpaceViolations) than its Support.

@@ -3,7 +3,6 @@
 
 #include "msc_vo/tracking/tracker.h"
 
-#include <stdexcept>
 #include <utility>
 
 #include "msc_vo/frame/feature_counts.h"
@@ -51,10 +50,7 @@ Tracker::Tracker(const TrackerOptions& options)
     : options_(options),
       policy_(options.keyframes),
       places_(options),
-      segment_start_(options.segments) {
-  std::string error;
-  if (!options.IsValid(&error)) throw std::invalid_argument(error);
-}
+      segment_start_(options.segments) {}
 
 TrackedFrame Tracker::Track(const std::shared_ptr<const Frame>& raw, const MapSnapshot& snapshot) {
   // Before the last evaluation of the factors, nothing else changes that later frames depend on.

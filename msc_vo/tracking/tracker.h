@@ -27,7 +27,7 @@ namespace msc_vo {
 /// keyframes and new segments. Never changes the map.
 class Tracker {
  public:
-  /// Throws std::invalid_argument on invalid options.
+  /// The options must be valid (OdometryOptions::IsValid).
   explicit Tracker(const TrackerOptions& options);
 
   /// Sets the source of custom factors over the pose of every frame. They take part in every

@@ -3,8 +3,6 @@
 
 #pragma once
 
-#include <string>
-
 #include "msc_vo/matching/landmark_matchers.h"
 #include "msc_vo/pose_estimation/pose_optimization.h"
 #include "msc_vo/pose_estimation/relocalizer.h"
@@ -26,8 +24,6 @@ struct SegmentOptions {
   /// are every image at 15 Hz and every second one at 30 Hz, and the three that a join needs take
   /// at most 0.13 s.
   double search_interval = 0.06;
-
-  bool IsValid(std::string* error) const;
 };
 
 struct TrackerOptions {
@@ -64,8 +60,6 @@ struct TrackerOptions {
   bool find_loops = true;
   /// Features with depth that the first frame needs, points and lines together (CanBeginMap).
   int min_initial_features = 20;
-
-  bool IsValid(std::string* error) const;
 };
 
 }  // namespace msc_vo

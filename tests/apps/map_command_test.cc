@@ -152,7 +152,8 @@ TEST_F(MapCommandTest, ExportsFilesOfOtherPrograms) {
   EXPECT_THAT(graph, AllOf(HasSubstr("VERTEX_SE3:QUAT 0 "), HasSubstr("EDGE_SE3:QUAT 0 ")));
   int num_images = 0;
   for (const auto& [id, keyframe] : map.keyframes()) {
-    const std::string path = Path(FormatText("export/images/%06d.jpg", static_cast<int>(id)));
+    const std::string path =
+        Path(FormatText("export/keyframe_images/%06d.jpg", static_cast<int>(id)));
     num_images += ShowsFrame(ReadFile(path), keyframe.frame->id) ? 1 : 0;
   }
   EXPECT_EQ(num_images, static_cast<int>(map.keyframes().size()));
@@ -161,17 +162,17 @@ TEST_F(MapCommandTest, ExportsFilesOfOtherPrograms) {
 }
 
 TEST_F(MapCommandTest, ReplacesImagesThatWereExportedEarlier) {
-  std::filesystem::create_directories(Path("export/images"));
+  std::filesystem::create_directories(Path("export/keyframe_images"));
   for (const std::string name : {"999999.jpg", "1.jpg", "kitchen.jpg", "000000.png"}) {
-    WriteFile(Path("export/images/" + name), "earlier");
+    WriteFile(Path("export/keyframe_images/" + name), "earlier");
   }
   ASSERT_EQ(RunCommand({"map", "export", Path("home.map"), "--output", Path("export")}).exit_code,
             0);
-  EXPECT_FALSE(HasEntry(Path("export/images/999999.jpg")));
-  EXPECT_TRUE(HasEntry(Path("export/images/000000.jpg")));
-  EXPECT_TRUE(HasEntry(Path("export/images/1.jpg")));
-  EXPECT_TRUE(HasEntry(Path("export/images/kitchen.jpg")));
-  EXPECT_TRUE(HasEntry(Path("export/images/000000.png")));
+  EXPECT_FALSE(HasEntry(Path("export/keyframe_images/999999.jpg")));
+  EXPECT_TRUE(HasEntry(Path("export/keyframe_images/000000.jpg")));
+  EXPECT_TRUE(HasEntry(Path("export/keyframe_images/1.jpg")));
+  EXPECT_TRUE(HasEntry(Path("export/keyframe_images/kitchen.jpg")));
+  EXPECT_TRUE(HasEntry(Path("export/keyframe_images/000000.png")));
 }
 
 TEST_F(MapCommandTest, ExtendsTheMapBySessionsThatFindThemselvesInIt) {
@@ -198,7 +199,7 @@ TEST_F(MapCommandTest, LeavesImagesOutOnRequest) {
             std::filesystem::file_size(Path("home.map")));
   ASSERT_EQ(RunCommand({"map", "export", Path("blind.map"), "--output", Path("export")}).exit_code,
             0);
-  EXPECT_FALSE(HasEntry(Path("export/images")));
+  EXPECT_FALSE(HasEntry(Path("export/keyframe_images")));
   ASSERT_EQ(Replay("room", "today", {"--localize", Path("blind.map")}).exit_code, 0);
   EXPECT_THAT(ReadFile(Path("today/report.html")),
               AllOf(HasSubstr("\"found\":"), Not(HasSubstr("\"place\":"))));

@@ -176,22 +176,10 @@ TEST(PointExtractor, ExtractsNothingFromUniformImages) {
   EXPECT_GT(extractor.Extract(testing::DrawQuadrilaterals(160, 120, {0.0, 0.0})).size(), 20u);
 }
 
-TEST(PointExtractor, ThrowsOnInvalidImageOrOptions) {
+TEST(PointExtractor, ThrowsOnInvalidImage) {
   PointExtractor extractor({});
   EXPECT_THROW(extractor.Extract(cv::Mat::zeros(10, 10, CV_8UC3)), std::invalid_argument);
   EXPECT_THROW(extractor.Extract(cv::Mat()), std::invalid_argument);
-  const auto invalid = [](const auto& change) {
-    PointExtractorOptions options;
-    change(&options);
-    std::string error;
-    EXPECT_FALSE(options.IsValid(&error));
-    EXPECT_NE(error.find("points"), std::string::npos);
-    EXPECT_THROW(PointExtractor{options}, std::invalid_argument);
-  };
-  invalid([](PointExtractorOptions* o) { o->num_points = -1; });
-  invalid([](PointExtractorOptions* o) { o->num_levels = 0; });
-  invalid([](PointExtractorOptions* o) { o->min_fast_threshold = 0; });
-  invalid([](PointExtractorOptions* o) { o->min_fast_threshold = 30; });
 }
 
 }  // namespace

@@ -175,6 +175,18 @@ TEST_F(MapImagesTest, KeepsNoImagesOfASessionWithoutAName) {
   }
 }
 
+TEST_F(MapImagesTest, KeepsTheImagesOfASessionWithANameAfterOneWithout) {
+  Map map = random_.Make(3);
+  for (const KeyframeImageSource& images : {EvenImages('a'), KeyframeImageSource()}) {
+    MapContents contents = AsContents(map.Share());
+    contents.sessions[0].name = "";
+    AddSession(&random_, &contents);  // of keyframes 3 and 4
+    if (!images) contents.sessions.push_back({5, "last"});
+    SaveMap(path_, std::move(contents), images);
+  }
+  EXPECT_THAT(KeysOf(Images(path_)), ElementsAre(4));
+}
+
 TEST_F(MapImagesTest, RefusesWhatIsNoSmallJpeg) {
   Map map = random_.Make(2);
   SaveMap(path_, AsContents(map.Share()), EvenImages('a'));

@@ -140,7 +140,9 @@ TEST_F(AxesOfMapsTest, MayDifferWithinTheirSigma) { EXPECT_TRUE(JoinsWithAxes(0.
 TEST_F(AxesOfMapsTest, MayBeInterchanged) { EXPECT_TRUE(JoinsWithAxes(90.3, 0.2)); }
 
 // A wing of a building that has axes of its own, beside others.
-TEST_F(AxesOfMapsTest, AreIgnoredIfFewLinesFollowThem) { EXPECT_TRUE(JoinsWithAxes(10.0, 0.2, 6)); }
+TEST_F(AxesOfMapsTest, AreIgnoredIfLessThanTwoThirdsOfTheLinesFollowThem) {
+  EXPECT_TRUE(JoinsWithAxes(10.0, 0.2, 6));
+}
 
 TEST_F(AxesOfMapsTest, CountIfTwoThirdsOfTheLinesFollowThem) {
   EXPECT_FALSE(JoinsWithAxes(10.0, 0.2, 7));

@@ -3,10 +3,54 @@
 
 #include "msc_vo/odometry/odometry_options.h"
 
-#include <gtest/gtest.h>
+#include <cmath>
+#include <string>
+
+#include "tests/support/message_matchers.h"
+#include <gmock/gmock.h>
 
 namespace msc_vo {
 namespace {
+
+// The error of the default options after `change`; empty: they are valid.
+template <typename Change>
+std::string ErrorAfter(const Change& change) {
+  OdometryOptions options;
+  change(&options);
+  std::string error;
+  return options.IsValid(&error) ? "" : error;
+}
+
+TEST(OdometryOptions, RequireRelationsBetweenOptions) {
+  EXPECT_THAT(ErrorAfter([](OdometryOptions* o) { o->features.max_depth = 0.1; }),
+              Names("min_depth", "max_depth"));
+  EXPECT_THAT(ErrorAfter([](OdometryOptions* o) { o->features.points.fast_threshold = 5; }),
+              Names("min_fast_threshold", "fast_threshold"));
+  EXPECT_THAT(ErrorAfter([](OdometryOptions* o) { o->tracking.keyframes.max_interval = 0.01; }),
+              Names("min_interval", "max_interval"));
+  EXPECT_THAT(ErrorAfter([](OdometryOptions* o) { o->tracking.min_matches = 21; }),
+              Names("min_matches", "min_initial_features"));
+  EXPECT_EQ(ErrorAfter([](OdometryOptions* o) { o->tracking.min_matches = 20; }), "");
+}
+
+TEST(OdometryOptions, CheckOptionsThatAreNotListed) {
+  for (const double bad : {-1.0, std::nan("")}) {
+    EXPECT_THAT(ErrorAfter([&](OdometryOptions* o) { o->tracking.segments.search_interval = bad; }),
+                Names("search_interval"));
+    EXPECT_THAT(ErrorAfter([&](OdometryOptions* o) { o->mapping.culling.redundant_ratio = bad; }),
+                Names("redundant_ratio"));
+    EXPECT_THAT(ErrorAfter([&](OdometryOptions* o) { o->mapping.noise.prior = bad; }),
+                Names("prior"));
+  }
+  EXPECT_THAT(ErrorAfter([](OdometryOptions* o) { o->mapping.culling.redundant_ratio = 2.0; }),
+              Names("redundant_ratio"));
+  EXPECT_THAT(ErrorAfter([](OdometryOptions* o) { o->mapping.selection.min_observations = 0; }),
+              Names("min_observations"));
+  EXPECT_THAT(ErrorAfter([](OdometryOptions* o) { o->tracking.pose.max_frame_noise = 0.5; }),
+              Names("max_frame_noise"));
+  EXPECT_THAT(ErrorAfter([](OdometryOptions* o) { o->mapping.window.reject_chi2_1 = 0.0; }),
+              Names("reject_chi2_1"));
+}
 
 TEST(Mode, HasANameThatIsParsed) {
   for (const Mode mode : {Mode::kPlVo, Mode::kPlVoDepth, Mode::kMscVo}) {

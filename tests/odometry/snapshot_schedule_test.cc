@@ -227,13 +227,5 @@ TEST_F(SnapshotScheduleTest, ThrowsAnErrorOnDrainIfItHasNotBeenThrown) {
   EXPECT_THAT(StepsUsed(&schedule, 1, 9), ElementsAre(0, 2, 2, 2, 2, 2, 2, 2));
 }
 
-TEST_F(SnapshotScheduleTest, RefusesNegativeLatency) {
-  std::string error;
-  EXPECT_FALSE((SnapshotOptions{1.0, -1.0, false}).IsValid(&error));
-  EXPECT_THAT(error, testing::HasSubstr("mapping.latency "));
-  EXPECT_FALSE((SnapshotOptions{-1.0, 1.0, false}).IsValid(&error));
-  EXPECT_THAT(error, testing::HasSubstr("mapping.insertion_latency "));
-}
-
 }  // namespace
 }  // namespace msc_vo

@@ -203,6 +203,9 @@ class Results(unittest.TestCase):
         self.assertEqual(result.lines.shape, (0, 6))
         self.assertEqual(result.planes.shape, (0, 4))
         self.assertEqual(result.plane_extents, [])
+        for name in ("segment", "line_axes", "plane_axes", "plane_observations"):
+            self.assertEqual((getattr(result, name).shape, getattr(result, name).dtype), ((0,), np.int32), name)
+        self.assertEqual((result.estimated.shape, result.estimated.dtype), ((0,), np.bool_))
         self.assertIsNone(result.world_from_axes)
 
 

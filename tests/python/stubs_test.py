@@ -45,6 +45,7 @@ class Stubs(unittest.TestCase):
     def members(self, name):
         node = self.classes[name]
         members = {m.name: m for m in node.body if isinstance(m, ast.FunctionDef)}
+        members |= {m.target.id: m for m in node.body if isinstance(m, ast.AnnAssign)}
         for base in node.bases:
             if base.id in self.classes:
                 members = {**self.members(base.id), **members}
@@ -62,6 +63,19 @@ class Stubs(unittest.TestCase):
             if name == "UnreadableImage":
                 actual = set()
             self.assertEqual(public(self.members(name)), public(actual), name)
+
+    def test_properties_are_read_only(self):
+        """They are Final or properties in the stubs, and nothing else is."""
+        for name, value in public_objects():
+            if "." not in name:
+                continue
+            owner, member = name.split(".")
+            node = self.members(owner)[member]
+            if isinstance(node, ast.AnnAssign):
+                is_read_only = re.match(r"Final\[.+\]$", ast.unparse(node.annotation)) is not None
+            else:
+                is_read_only = [ast.unparse(d) for d in node.decorator_list] == ["property"]
+            self.assertEqual(is_read_only, isinstance(value, property) and value.fset is None, name)
 
     def test_arguments(self):
         for name, value in public_objects():
@@ -121,7 +135,10 @@ window.add_point_observations(**odometry.map().window.point_observations)
 '''
 WRONG = [("msc_vo.Camera('wide')", "Camera"), ("odometry.process(0.0)", "process"),
          ("result.covariance", "covariance"), ("window.add_points([1])", "add_points"),
-         ("msc_vo.Lens('wide', [])", "Lens")]
+         ("msc_vo.Lens('wide', [])", "Lens"), ("sequence.camera.fx = 500.0", "fx"),
+         ("frame.cam_from_world = np.eye(4)", "cam_from_world"), ("odometry.frames = []", "frames"),
+         ("window.points = np.zeros((0, 3))", "points"),
+         ("width: str = sequence.camera.width", "int")]
 
 
 class Mypy(unittest.TestCase):

@@ -1,7 +1,9 @@
 """Values can be pickled, copied and compared, and keep everything that they have."""
 import copy
 import inspect
+import pathlib
 import pickle
+import tempfile
 import unittest
 
 import numpy as np
@@ -23,6 +25,15 @@ def depth_camera(x=0.05):
     pose = np.eye(4)
     pose[0, 3] = x
     return msc_vo.DepthCamera(camera(width=320), pose, [0.01, 0.0, 0.0, 0.0], 0.001)
+
+
+def masked_image(masked):
+    """The first image of the room with a mask of the pixels where `masked` is true."""
+    pixels = np.where(masked, 255, 0).astype(np.uint8)
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder, "mask.pgm")
+        path.write_bytes(b"P5 640 480 255\n" + pixels.tobytes())
+        return msc_vo.Sequence(support.ROOM, mask=path)[0]
 
 
 def window():
@@ -140,6 +151,19 @@ class Values(unittest.TestCase):
         for name, value in dict(fx=500.0, fy=500.0, cx=300.0, cy=200.0, width=639, height=479).items():
             self.assertNotEqual(camera(), camera(**{name: value}), name)
         self.assertEqual(camera(cx=0.0), camera(cx=-0.0))
+
+    def test_the_mask_of_an_image_counts(self):
+        plain = support.room()[0]
+        # Depth is removed where the mask is, so that these images differ in their masks only.
+        masked = masked_image(plain.depth == 0.0)
+        with_zeros = masked_image(np.zeros_like(plain.depth))
+        self.assertGreater(masked.mask.max(), 0)
+        for image in (plain, masked, with_zeros):
+            np.testing.assert_array_equal(image.depth, plain.depth)
+            for made in (pickle.loads(pickle.dumps(image)), copy.copy(image), copy.deepcopy(image)):
+                self.assertEqual(made, image)
+                self.assertEqual(properties(made), properties(image))
+        self.assertEqual(len({plain, masked, with_zeros}), 3)
 
     def test_a_copy_does_not_follow(self):
         for value in (msc_vo.Options(), msc_vo.WindowOptions()):

@@ -41,6 +41,56 @@ class Scene:
         return window
 
 
+# Types and shapes behind the number of items, of all arrays of a window.
+ARRAYS = {
+    **{f"{kind}_ids": (np.int64, ()) for kind in ("keyframe", "point", "line")},
+    **{f"{kind}_fixed": (np.bool_, ()) for kind in ("keyframe", "point", "line")},
+    **{name: (np.float64, ()) for name in ("point_noise", "line_noise", "line_depth_offsets")},
+    **{f"{kind}_rejected": (np.bool_, ()) for kind in ("point_observation", "line_observation", "parallel",
+                                                       "perpendicular", "axis_alignment")},
+    "cam_from_world": (np.float64, (4, 4)), "points": (np.float64, (3,)), "lines": (np.float64, (6,))}
+IDS, NUMBERS = (np.int64, ()), (np.float64, ())
+PAIRS = {"a": IDS, "b": IDS, "sigmas": NUMBERS, "counts": IDS}
+TABLES = {
+    "point_observations": {"keyframes": IDS, "points": IDS, "pixels": (np.float64, (2,)), "sigmas": NUMBERS,
+                           "inverse_depths": NUMBERS, "inverse_depth_sigmas": NUMBERS},
+    "line_observations": {"keyframes": IDS, "lines": IDS, "segments": (np.float64, (4,)), "sigmas": NUMBERS,
+                          "inverse_depths": (np.float64, (2,)), "depth_covariances": (np.float64, (2, 2))},
+    "parallel_pairs": PAIRS, "perpendicular_pairs": PAIRS,
+    "axis_alignments": {"lines": IDS, "axes": (np.float64, (3,)), "sigmas": NUMBERS}}
+
+
+class Arrays(unittest.TestCase):
+    def test_types_and_shapes_do_not_depend_on_the_number_of_items(self):
+        full, _ = msc_vo.read_window(support.WINDOWS / "room.txt")
+        for window in (full, msc_vo.WindowData(full.camera)):
+            self.assertEqual({name: (getattr(window, name).dtype, getattr(window, name).shape[1:])
+                              for name in ARRAYS}, ARRAYS)
+            for table, columns in TABLES.items():
+                self.assertEqual({name: (array.dtype, array.shape[1:])
+                                  for name, array in getattr(window, table).items()}, columns)
+        self.assertEqual(window.lines.size, 0)
+
+    def test_arrays_hold_what_was_added(self):
+        window = msc_vo.WindowData(msc_vo.Camera(500.0, 500.0, 319.5, 239.5, 640, 480))
+        poses = np.stack([rotation_y(0.1), rotation_y(0.2)])
+        poses[:, :3, 3] = [[1, 2, 3], [4, 5, 6]]
+        window.add_keyframes([3, 4], poses, fixed=[True, False])
+        window.add_lines([7, 8], np.arange(12.0).reshape(2, 6), depth_offsets=[0.1, 0.2])
+        covariances = np.array([[[4.0, 1.0], [1.0, 9.0]], np.full((2, 2), np.nan)])
+        observations = {"keyframes": [3, 4], "lines": [7, 8], "segments": np.arange(8.0).reshape(2, 4),
+                        "sigmas": [1.0, 2.0], "inverse_depths": [[0.5, 0.25], [np.nan, np.nan]],
+                        "depth_covariances": covariances}
+        window.add_line_observations(**observations)
+        np.testing.assert_allclose(window.cam_from_world, poses, atol=1e-12)
+        np.testing.assert_array_equal(window.keyframe_fixed, [True, False])
+        np.testing.assert_array_equal(window.line_ids, [7, 8])
+        np.testing.assert_array_equal(window.lines, np.arange(12.0).reshape(2, 6))
+        np.testing.assert_array_equal(window.line_depth_offsets, [0.1, 0.2])
+        for name, values in observations.items():
+            np.testing.assert_array_equal(window.line_observations[name], values, name)
+
+
 class Files(unittest.TestCase):
     def test_recorded_windows_are_solved_and_written(self):
         window, options = msc_vo.read_window(support.WINDOWS / "room.txt")

@@ -6,14 +6,11 @@
 #include <algorithm>
 #include <map>
 #include <random>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
-#include "tests/support/message_matchers.h"
 #include "tests/support/synthetic_frames.h"
 #include "tests/support/synthetic_map.h"
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/map/window_selection.h"
@@ -184,16 +181,6 @@ TEST(RelationProbabilities, EstimatesTheFractionOfRelatedPairs) {
   // The same angles among many that fit no relation.
   densities.resize(10000, 0.1);
   EXPECT_LT(RelationProbabilities(densities, 1.0).front(), 0.2);
-}
-
-TEST(StructuralPairOptions, ChecksItsOptions) {
-  std::string error;
-  StructuralPairOptions options;
-  EXPECT_TRUE(options.IsValid(&error));
-  options.max_angle = 0.0;
-  EXPECT_FALSE(options.IsValid(&error));
-  EXPECT_THAT(error, Names("max_angle"));
-  EXPECT_THROW(StructuralPairs{options}, std::invalid_argument);
 }
 
 }  // namespace

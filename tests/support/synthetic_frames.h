@@ -18,16 +18,18 @@ class SyntheticFrames {
   struct Options {
     int num_points = 300;
     int num_lines = 40;
-    double pixel_noise = 0.5;           // standard deviation of every coordinate, pixels
-    double inverse_depth_noise = 1e-3;  // standard deviation, 1/metres
-    int flipped_bits = 12;              // of every descriptor, per observation
+    double min_depth = 2.0, max_depth = 6.0;  // of points from the first camera, metres
+    double pixel_noise = 0.5;                 // standard deviation of every coordinate, pixels
+    double inverse_depth_noise = 1e-3;        // standard deviation, 1/metres
+    int flipped_bits = 12;                    // of every descriptor, per observation
     unsigned seed = 1;
   };
 
   explicit SyntheticFrames(const Options& options) : options_(options), random_(options.seed) {
     // A box of 6 x 3 x 4 metres in front of the first cameras; lines along its three directions.
     for (int i = 0; i < options.num_points; ++i) {
-      points_.push_back({Uniform(-3, 3), Uniform(-1.5, 1.5), Uniform(2, 6)});
+      points_.push_back(
+          {Uniform(-3, 3), Uniform(-1.5, 1.5), Uniform(options.min_depth, options.max_depth)});
       point_descriptors_.push_back(RandomDescriptor());
     }
     for (int i = 0; i < options.num_lines; ++i) {

@@ -3,8 +3,7 @@
 
 #include "msc_vo/tracking/keyframe_policy.h"
 
-#include "tests/support/message_matchers.h"
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 namespace msc_vo {
 namespace {
@@ -128,15 +127,6 @@ TEST(KeyframePolicy, TestsCloseFeaturesSeparately) {
   EXPECT_FALSE(policy.IsDue(frame, matches(40, 20), true));
   EXPECT_FALSE(policy.IsDue(frame, matches(36, 24), true));
   EXPECT_TRUE(policy.IsDue(frame, matches(30, 30), true));  // close: 0.75 of the best ratio
-}
-
-TEST(KeyframePolicy, ChecksItsOptions) {
-  std::string error;
-  KeyframePolicyOptions options;
-  EXPECT_TRUE(options.IsValid(&error));
-  options.max_interval = 0.01;
-  EXPECT_FALSE(options.IsValid(&error));
-  EXPECT_THAT(error, Names("max_interval"));
 }
 
 }  // namespace

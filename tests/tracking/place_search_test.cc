@@ -92,26 +92,72 @@ TEST_F(PlaceSearchTest, DoesNotChooseBetweenPlacesOfAnInactiveMapThatLookAlike) 
   for (int i = 1; i < 40; ++i) EXPECT_FALSE(Track(i).keyframe.revisit) << i;
 }
 
+// A frame whose depth image shows a wall.
+std::shared_ptr<const Frame> WithWall(const Frame& frame, double distance) {
+  auto result = std::make_shared<Frame>(frame);
+  const auto w = static_cast<float>(1.0 / distance);
+  result->depth_ranges.cells.assign(DepthRanges::kColumns * DepthRanges::kRows, {w, w});
+  return result;
+}
+
+// The frames see a wall at 3 m. One nearer in the map stands in their way, one behind does not.
+TEST_F(PlaceSearchTest, FindsNoPlaceWhoseSurfacesTheCameraLooksThrough) {
+  Start({});
+  for (const double distance : {1.0, 5.0}) {
+    MapSnapshot inactive =
+        MapOfOneKeyframe(WithWall(*world_->MakeFrame(0), distance), Rigid3(), 100);
+    snapshot_.inactive_maps = {std::make_shared<const Map>(std::move(inactive.map))};
+    bool is_found = false;
+    for (int i = 1; i < 20; ++i) {
+      const std::shared_ptr<const Frame> frame = WithWall(*world_->MakeFrame(i), 3.0);
+      is_found = is_found || tracker_.Track(frame, snapshot_).keyframe.revisit.has_value();
+    }
+    EXPECT_EQ(is_found, distance > 3.0) << distance;
+  }
+}
+
+// All that the frames match is on one wall, of a map that has more: in a map of an earlier session
+// it may be any copy of the wall.
+TEST_F(PlaceSearchTest, FindsNoPlaceOfAnEarlierSessionByOnePlaneAlone) {
+  SyntheticFrames::Options wall;
+  wall.num_lines = 0;
+  wall.min_depth = wall.max_depth = 4.0;
+  Start(wall);
+  for (const bool is_earlier : {true, false}) {
+    MapSnapshot inactive = MapOfOneKeyframe(world_->MakeFrame(0), Rigid3(), 100);
+    SyntheticFrames::Options elsewhere;
+    elsewhere.seed = 2;
+    AddKeyframe(SyntheticFrames(elsewhere).MakeFrame(0),
+                {Eigen::Quaterniond::Identity(), {20.0, 0.0, 0.0}}, &inactive);
+    if (is_earlier) inactive.map.BeginSession();
+    snapshot_.inactive_maps = {std::make_shared<const Map>(std::move(inactive.map))};
+    bool is_found = false;
+    for (int i = 1; i < 20; ++i) is_found = is_found || Track(i).keyframe.revisit.has_value();
+    EXPECT_NE(is_found, is_earlier);
+  }
+}
+
 // Two keyframes of the map show the same place and share no landmarks: a loop.
 class RevisitTest : public TrackerTest {
  protected:
   static constexpr KeyframeId kNewest = 100;  // no keyframe that the tracker proposes
-  // The first keyframe is the older visit. `from_newest`: where the map has it.
-  void StartWithLoop(const Rigid3& from_newest) {
+  // The first keyframe is the older visit, and sees a wall. `from_newest`: where the map has it.
+  void StartWithLoop(const Rigid3& from_newest, double wall = 5.0) {
     Start({});
-    snapshot_ = MapOfOneKeyframe(world_->MakeFrame(0), from_newest, 0);
+    snapshot_ = MapOfOneKeyframe(WithWall(*world_->MakeFrame(0), wall), from_newest, 0);
     AddKeyframe(world_->MakeFrame(0), Rigid3(), &snapshot_, kNewest);
     PoseCovariance step = PoseCovariance::Zero();
     step.diagonal().head<3>().setConstant(1e-6);
     step.diagonal().tail<3>().setConstant(1e-4);  // 1 cm
     snapshot_.map.SetStepCovariance(kNewest, step);
   }
-  // The revisits of frames, which are tracked in the newest keyframe.
+  // The revisits of frames, which are tracked in the newest keyframe and see a wall at 3 m.
   std::vector<Revisit> FindRevisits() {
     std::vector<Revisit> revisits;
     int last = -6;
     for (int i = 1; i < 40; ++i) {
-      const TrackedFrame tracked = Track(i);
+      const std::shared_ptr<const Frame> frame = WithWall(*world_->MakeFrame(i), 3.0);
+      const TrackedFrame tracked = tracker_.Track(frame, snapshot_);
       EXPECT_EQ(tracked.status, TrackingStatus::kTracked) << i;
       if (!tracked.keyframe.revisit) continue;
       revisits.push_back(*tracked.keyframe.revisit);
@@ -129,6 +175,11 @@ TEST_F(RevisitTest, IsFoundWhereDriftHasMovedTheMap) {
   const std::vector<Revisit> revisits = FindRevisits();
   ASSERT_FALSE(revisits.empty());
   for (const Revisit& revisit : revisits) EXPECT_EQ(revisit.reference, 0);
+}
+
+TEST_F(RevisitTest, IsNotFoundWhereTheCameraLooksThroughASurface) {
+  StartWithLoop({Eigen::Quaterniond::Identity(), {0.02, 0.0, 0.01}}, 1.0);
+  EXPECT_TRUE(FindRevisits().empty());
 }
 
 // A place that looks alike.

@@ -67,6 +67,19 @@ TEST_F(IsCoplanarTest, NotIfEnoughMatchesAreOffThePlane) {
   EXPECT_FALSE(IsCoplanar());
 }
 
+// A plane through three of few landmarks has few of them off it, wherever they are.
+TEST_F(IsCoplanarTest, NotIfAQuarterOfFewMatchesIsOffThePlane) {
+  AddLandmarks(9, 3, true);
+  AddLandmarks(0, 30, false);
+  EXPECT_FALSE(IsCoplanar());
+}
+
+TEST_F(IsCoplanarTest, IfMatchesAreCollinear) {
+  AddLandmarks(3, 0, true);
+  AddLandmarks(0, 30, false);
+  EXPECT_TRUE(IsCoplanar());
+}
+
 // A floor is all that this map has.
 TEST_F(IsCoplanarTest, NotIfTheMapIsOnePlane) {
   AddLandmarks(100, 0, true);
@@ -106,20 +119,22 @@ TEST_F(ContradictsSurfacesTest, NotWhereTheWallMayBeHidden) {
   EXPECT_FALSE(Contradicts());
 }
 
-// A frame with depth in a few cells of its corner, in which nine cells of the place can be looked
-// through.
+// Frames with depth in cells of their corner, in which nine and twelve cells of the place can be
+// looked through.
 TEST_F(ContradictsSurfacesTest, NotByAFewCells) {
-  auto few = std::make_shared<Frame>();
-  few->depth_ranges.cells.resize(DepthRanges::kColumns * DepthRanges::kRows);
-  for (int row = 0; row < 4; ++row) {
-    for (int column = 0; column < 4; ++column) {
-      few->depth_ranges.cells[row * DepthRanges::kColumns + column] = {0.5f, 0.5f};
-    }
-  }
-  tracked_.frame = few;
   own_ = MapOfOneKeyframe(std::make_shared<Frame>(), Rigid3());
   MovePlace(1.5);
-  EXPECT_FALSE(Contradicts());
+  for (const int num_columns : {4, 5}) {
+    auto few = std::make_shared<Frame>();
+    few->depth_ranges.cells.resize(DepthRanges::kColumns * DepthRanges::kRows);
+    for (int row = 0; row < 4; ++row) {
+      for (int column = 0; column < num_columns; ++column) {
+        few->depth_ranges.cells[row * DepthRanges::kColumns + column] = {0.5f, 0.5f};
+      }
+    }
+    tracked_.frame = few;
+    EXPECT_EQ(Contradicts(), num_columns == 5);
+  }
 }
 
 TEST_F(ContradictsSurfacesTest, NotWithoutDepth) {

@@ -10,28 +10,43 @@
 namespace msc_vo {
 namespace {
 
-TEST(CountMatches, CountsNoMoreLandmarksOfAKindThanFeatures) {
+Frame FrameWith(int num_points, int num_lines) {
   Frame frame;
-  frame.points.resize(80);
-  frame.lines.resize(20);
-  FrameMatches matches;
-  matches.points.resize(30);
-  matches.lines.resize(10);
-  const auto num_matchable = [&](const PerKind<int>& in_view) {
-    const MatchCounts counts = CountMatches(frame, in_view, matches);
-    EXPECT_EQ(counts.num_matched, 40);
-    return counts.num_matchable;
-  };
-  EXPECT_EQ(num_matchable({50, 15}), 65);
-  EXPECT_EQ(num_matchable({50, 200}), 70);
-  EXPECT_EQ(num_matchable({800, 200}), 100);
+  frame.points.resize(num_points);
+  frame.lines.resize(num_lines);
+  return frame;
+}
+
+TEST(NumMatchable, IsAtMostTheNumberOfFeaturesOfEachKind) {
+  const Frame frame = FrameWith(80, 20);
+  const MatchCounts other{{40, 10}, 40};
+  EXPECT_EQ(NumMatchable(frame, {{50, 15}, 0}, other), 65);
+  EXPECT_EQ(NumMatchable(frame, {{50, 200}, 0}, other), 70);
+  EXPECT_EQ(NumMatchable(frame, {{800, 200}, 0}, other), 100);
+}
+
+TEST(NumMatchable, IsAtMostTheNumberInViewAtTheOtherPlaceIfThatIsMore) {
+  const MatchCounts other{{300, 10}, 40};
+  EXPECT_EQ(NumMatchable(FrameWith(80, 20), {{200, 15}, 0}, other), 215);
+  EXPECT_EQ(NumMatchable(FrameWith(80, 20), {{800, 200}, 0}, other), 320);
 }
 
 TEST(HasComparableMatchRatio, RequiresHalfOfTheOtherRatio) {
-  const MatchCounts other{100, 40};
-  EXPECT_TRUE(HasComparableMatchRatio({200, 80}, other));
-  EXPECT_TRUE(HasComparableMatchRatio({200, 40}, other));
-  EXPECT_FALSE(HasComparableMatchRatio({200, 39}, other));
+  const Frame frame = FrameWith(500, 0);
+  const MatchCounts other{{100, 0}, 40};
+  EXPECT_TRUE(HasComparableMatchRatio(frame, {{200, 0}, 80}, other));
+  EXPECT_TRUE(HasComparableMatchRatio(frame, {{200, 0}, 40}, other));
+  EXPECT_FALSE(HasComparableMatchRatio(frame, {{200, 0}, 39}, other));
+}
+
+// A frame of 1100 features matches 620 landmarks of a map. Of another place that was seen as often
+// it matches as many, and of one that was seen once its share.
+TEST(HasComparableMatchRatio, AllowsForHowOftenPlacesWereSeen) {
+  const Frame frame = FrameWith(1100, 0);
+  const MatchCounts seen_often{{3000, 0}, 620}, seen_once{{900, 0}, 620}, edge{{500, 0}, 60};
+  EXPECT_TRUE(HasComparableMatchRatio(frame, seen_often, seen_once));
+  EXPECT_TRUE(HasComparableMatchRatio(frame, edge, seen_often));
+  EXPECT_FALSE(HasComparableMatchRatio(frame, edge, seen_once));
 }
 
 std::shared_ptr<Frame> FrameAtWall(double distance) {

@@ -3,8 +3,7 @@
 
 #include "msc_vo/tracking/segment_start.h"
 
-#include "tests/support/message_matchers.h"
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 namespace msc_vo {
 namespace {
@@ -79,14 +78,6 @@ TEST_F(SegmentStartTest, CanBeDisabled) {
   policy.Started(1.0);
   policy.NotFound(1.1, true, kKeyframesPerFrame);
   EXPECT_FALSE(policy.IsDue(1));
-}
-
-TEST_F(SegmentStartTest, RefusesInvalidOptions) {
-  std::string error;
-  SegmentOptions options;
-  options.max_search = -0.5;
-  EXPECT_FALSE(options.IsValid(&error));
-  EXPECT_THAT(error, Names("max_search"));
 }
 
 }  // namespace

@@ -310,11 +310,5 @@ TEST_F(TrackerTest, WaitsForAFirstFrameWithFeatures) {
   EXPECT_TRUE(first.keyframe.is_due());
 }
 
-TEST_F(TrackerTest, RejectsInvalidOptions) {
-  TrackerOptions options;
-  options.min_matches = 1;
-  EXPECT_THROW(Tracker{options}, std::invalid_argument);
-}
-
 }  // namespace
 }  // namespace msc_vo

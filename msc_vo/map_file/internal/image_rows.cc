@@ -4,7 +4,8 @@
 #include "msc_vo/map_file/internal/image_rows.h"
 
 #include <algorithm>
-#include <limits>
+#include <iterator>
+#include <map>
 #include <stdexcept>
 #include <string_view>
 
@@ -43,20 +44,30 @@ Image ReadRow(const SqliteStatement& rows, const std::string& path) {
   return image;
 }
 
-// Keyframes with smaller ids belong to sessions that are the same in the file and in `sessions`:
-// those without a name may be of any sequence.
-KeyframeId EndOfCommonSessions(const SqliteDatabase& database,
-                               const std::vector<MapSession>& sessions) {
+// Whether images of a session are kept, by its first keyframe.
+using KeptSessions = std::map<KeyframeId, bool>;
+
+// Keeps sessions that are the same in the file and in `sessions`, without those that have no name
+// and may be of any sequence.
+KeptSessions SelectSessions(const SqliteDatabase& database,
+                            const std::vector<MapSession>& sessions) {
   SqliteStatement rows = database.Prepare("SELECT first_keyframe, name FROM session ORDER BY id");
+  KeptSessions kept;
   for (const MapSession& session : sessions) {
-    if (!rows.Step()) return session.first_keyframe;
-    const KeyframeId first = rows.Integer(0);
-    const bool has_same_name = !session.name.empty() && rows.Bytes(1) == session.name;
-    if (first != session.first_keyframe || !has_same_name) {
-      return std::min(first, session.first_keyframe);
-    }
+    const bool is_in_file = rows.Step();
+    const KeyframeId first = is_in_file ? rows.Integer(0) : session.first_keyframe;
+    const bool is_same =
+        is_in_file && first == session.first_keyframe && rows.Bytes(1) == session.name;
+    kept[std::min(first, session.first_keyframe)] = is_same && !session.name.empty();
+    if (!is_same) return kept;
   }
-  return rows.Step() ? rows.Integer(0) : std::numeric_limits<KeyframeId>::max();
+  if (rows.Step()) kept[rows.Integer(0)] = false;
+  return kept;
+}
+
+bool AreKept(const KeptSessions& sessions, KeyframeId keyframe) {
+  const auto next = sessions.upper_bound(keyframe);
+  return next != sessions.begin() && std::prev(next)->second;
 }
 
 bool IsUndamaged(const SqliteDatabase& database, KeyframeId id) {
@@ -104,7 +115,7 @@ void CheckImages(const SqliteDatabase& database, const MapContents& contents) {
 }
 
 void EraseOtherImages(const SqliteDatabase& database, const MapContents& contents) {
-  const KeyframeId end = EndOfCommonSessions(database, contents.sessions);
+  const KeptSessions sessions = SelectSessions(database, contents.sessions);
   SqliteStatement rows = database.Prepare(
       "SELECT image.keyframe, features.keyframe IS NOT NULL, frame, timestamp FROM image LEFT JOIN "
       "features ON features.keyframe = image.keyframe");
@@ -113,7 +124,7 @@ void EraseOtherImages(const SqliteDatabase& database, const MapContents& content
     const KeyframeId id = rows.Integer(0);
     const Keyframe* const keyframe = FindKeyframe(contents, id);
     const bool has_features = rows.Integer(1) != 0;
-    const bool is_same = keyframe != nullptr && id < end && has_features &&
+    const bool is_same = keyframe != nullptr && AreKept(sessions, id) && has_features &&
                          keyframe->frame->id == rows.Integer(2) &&
                          keyframe->frame->timestamp == rows.Real(3) && IsUndamaged(database, id);
     if (!is_same) others.push_back(id);

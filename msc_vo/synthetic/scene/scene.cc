@@ -75,7 +75,7 @@ std::optional<SceneKind> SceneKindFromName(const std::string& name) {
   return static_cast<SceneKind>(found - names.begin());
 }
 
-bool HasLookAlikes(SceneKind kind) {
+bool SupportsReturns(SceneKind kind) {
   return kind == SceneKind::kRooms || kind == SceneKind::kMirrored || kind == SceneKind::kFloors ||
          kind == SceneKind::kDesks;
 }

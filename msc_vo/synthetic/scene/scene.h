@@ -85,7 +85,7 @@ struct Scene {
   std::vector<Waypoint> tour;       ///< path through free space
   bool tour_is_loop = true;         ///< else, it ends at its last waypoint
   /// The places that look alike, as copies of one part; in odd seeds, each has a small object of
-  /// its own.
+  /// its own, except in a gallery.
   std::vector<Placement> look_alikes;
 
   /// The straight edges that textures draw on the rectangles (TextureEdges), metres, at least
@@ -106,7 +106,7 @@ enum class SceneKind {
   kSlanted,   ///< attic with sloped walls and furniture at arbitrary angles: no Manhattan frame
   kHouse,     ///< four furnished rooms connected in a ring: for long trajectories, Manhattan
   kBox,       ///< an orbit around one box on a plain floor, crates far off: few lines
-  // Places that look alike; the tour is no loop.
+  // Places, or in a gallery things, that look alike; the tour is no loop.
   kRooms,     ///< identical rooms along a corridor
   kMirrored,  ///< rooms that mirror each other across a corridor and along it
   kFloors,    ///< two identical floors, connected by a lift shaft
@@ -124,8 +124,9 @@ const std::vector<std::string>& SceneKindNames();
 /// The kind with this name; std::nullopt if there is none.
 std::optional<SceneKind> SceneKindFromName(const std::string& name);
 
-/// True if a scene of this kind consists of places that look alike.
-bool HasLookAlikes(SceneKind kind);
+/// True if a walk through a scene of this kind can return to the first of its places that look
+/// alike.
+bool SupportsReturns(SceneKind kind);
 
 /// Builds a scene. Deterministic; the seed determines sizes, colours and furniture, and with `walk`
 /// the tour.

@@ -124,7 +124,7 @@ bool SyntheticSequenceOptions::IsValid(std::string* error) const {
     *error = "accelerometer_sigma must not be negative";
   } else if (!(accelerometer_rate > 0.0)) {
     *error = "accelerometer_rate must be positive";
-  } else if (walk.returns && !HasLookAlikes(scene)) {
+  } else if (walk.returns && !SupportsReturns(scene)) {
     *error = "walk.returns needs a scene with places that look alike";
   } else if (specular.Any() && scene != SceneKind::kRoom) {
     *error = "specular surfaces need the scene room";

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/results/calibrated_value.h"
+
+#include <cmath>
+#include <map>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "msc_vo/sensor/depth_camera_correction.h"
+
+namespace msc_vo {
+namespace {
+
+using S = SensorCorrection;
+
+// The summary of a run that has corrected a calibration whose focal lengths differ.
+RunSummary CorrectedRun(const S::Vector& correction) {
+  CameraIntrinsics given;
+  given.camera = {500.0, 540.0, 320.0, 240.0, 640, 480};
+  RunSummary summary;
+  summary.intrinsics = Corrected(given, correction);
+  summary.depth_camera = DepthCameraOf(given, summary.intrinsics);
+  summary.calibration.correction = correction;
+  summary.calibration.sigma.setConstant(1e-4);
+  return summary;
+}
+
+std::map<std::string, CalibratedValue> ValuesByName(const RunSummary& summary) {
+  std::map<std::string, CalibratedValue> values;
+  for (const CalibratedValue& value : ListCalibratedValues(summary)) values[value.name] = value;
+  return values;
+}
+
+TEST(CalibratedValue, HasTheSigmaOfItsParameter) {
+  S::Vector correction = S::Vector::Zero();
+  correction(S::kDepthFocalLength) = 0.1;
+  const auto values = ValuesByName(CorrectedRun(correction));
+  const std::map<std::string, int> parameters = {
+      {"fx", S::kFocalLength},  {"fy", S::kFocalLength},
+      {"cx", S::kCenterX},      {"cy", S::kCenterY},
+      {"k1", S::kK1},           {"k2", S::kK2},
+      {"depth_cx", S::kDepthX}, {"depth_fx", S::kDepthFocalLength},
+      {"depth_cy", S::kDepthY}, {"depth_roll", S::kDepthRoll}};
+  for (const auto& [name, parameter] : parameters) {
+    S::Vector changed = correction;
+    changed(parameter) += 1e-4;
+    const double change =
+        ValuesByName(CorrectedRun(changed)).at(name).value - values.at(name).value;
+    EXPECT_NEAR(values.at(name).sigma, std::abs(change), 1e-3 * std::abs(change)) << name;
+  }
+}
+
+}  // namespace
+}  // namespace msc_vo
