@@ -230,13 +230,9 @@ Json HeadToJson(const ReportData& data, const Eigen::Matrix3d& view_from_world) 
 
 // One line. "<" is escaped, because "</script" and "<!--" would end or change a script element.
 std::string Dump(const Json& json) {
-  std::string text;
-  for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
-    if (c == '<') {
-      text += "\\u003c";
-    } else {
-      text += c;
-    }
+  std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  for (size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
+    text.replace(at, 1, "\\u003c");
   }
   return text;
 }

@@ -146,8 +146,7 @@ TEST_F(MapCommandTest, ExportsFilesOfOtherPrograms) {
               LineNames("element vertex", std::to_string(map.points().size())));
   EXPECT_THAT(ReadFile(Path(folder + "lines.ply")),
               LineNames("element edge", std::to_string(map.lines().size())));
-  const std::vector<TimedPose> keyframes = ReadTrajectory(Path(folder + "keyframes_1.txt"));
-  ASSERT_EQ(keyframes.size(), map.keyframes().size());
+  ASSERT_EQ(ReadTrajectory(Path(folder + "keyframes_1.txt")).size(), map.keyframes().size());
   const std::string graph = ReadFile(Path(folder + "graph.g2o"));
   EXPECT_THAT(graph, AllOf(HasSubstr("VERTEX_SE3:QUAT 0 "), HasSubstr("EDGE_SE3:QUAT 0 ")));
   int num_images = 0;

@@ -57,8 +57,9 @@ double Median(std::vector<double> values) {
 
 TEST(PointExtractor, DistributesPointsEvenly) {
   const cv::Mat image = testing::DrawQuadrilaterals(640, 480, {0.0, 0.0}, 0.0, 2.0);
-  PointExtractor extractor({});
-  const auto points = extractor.Extract(image);
+  PointExtractorOptions options;
+  options.num_points = 1000;
+  const auto points = PointExtractor(options).Extract(image);
   EXPECT_GT(points.size(), 800u);
   EXPECT_LE(points.size(), 1000u);
   std::set<int> levels;

@@ -69,7 +69,7 @@ TEST_F(IsCoplanarTest, NotIfEnoughMatchesAreOffThePlane) {
 
 // A plane through three of few landmarks has few of them off it, wherever they are.
 TEST_F(IsCoplanarTest, NotIfAQuarterOfFewMatchesIsOffThePlane) {
-  AddLandmarks(9, 3, true);
+  AddLandmarks(12, 4, true);
   AddLandmarks(0, 30, false);
   EXPECT_FALSE(IsCoplanar());
 }
