@@ -168,7 +168,8 @@ int RunWorlds(int argc, char** argv) {
     for (int i = 0; i < (returns ? num_returns : num_alike); ++i) {
       options.seed = first + static_cast<uint64_t>(i);
       options.scene = scene.empty() ? LookAlikeKind(i) : *SceneKindFromName(scene);
-      options.returns = returns && SupportsReturns(options.scene);
+      if (returns && !SupportsReturns(options.scene)) continue;
+      options.returns = returns;
       RunWorld(options, &totals);
     }
   }

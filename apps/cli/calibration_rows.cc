@@ -77,8 +77,10 @@ Numbers ScalesOf(const Calibration& calibration) {
   // image of a depth camera has pixels of another size.
   const double depth_x = f * depth.fx / color.fx;
   const double depth_y = f * std::abs(depth.fy / color.fy);
-  return {color.fx, std::abs(color.fy),    f,      f,     1.0, 1.0, depth.fx, depth_x,
-          depth_y,  RadiansToDegrees(1.0), 1000.0, 1000.0};
+  const double parallax_x = 1000.0 * f / color.fx;
+  const double parallax_y = 1000.0 * f / std::abs(color.fy);
+  return {color.fx, std::abs(color.fy),    f,          f,         1.0, 1.0, depth.fx, depth_x,
+          depth_y,  RadiansToDegrees(1.0), parallax_x, parallax_y};
 }
 
 std::string VerdictOf(const Value& value, const CalibrationReport& report) {

@@ -55,7 +55,7 @@ void PrintInfo(const std::string& file) {
             << std::endl;
 }
 
-// Of the folder of an export; no format of recordings has images in a folder of this name.
+// Subfolder of an export for the images of keyframes. No dataset format uses this name.
 constexpr const char* kImageFolder = "keyframe_images";
 
 // Whether a file has the name of an exported image: six digits or more.

@@ -109,10 +109,10 @@ int main() {
   const Plane wall = WallOf(camera);
   both.SetWindowFactors(KnownWall(wall));
   const msc_vo::OdometryResult a = camera.Replay(&vision), b = camera.Replay(&both);
-  const double without = camera.PositionError(a), with = camera.PositionError(b);
-  std::printf("position error without wall %.1f mm, with wall %.1f mm\n", 1000.0 * without,
-              1000.0 * with);
-  std::printf("across the wall: without %.1f mm, with %.1f mm\n",
-              1000.0 * ErrorAcross(wall, camera, a), 1000.0 * ErrorAcross(wall, camera, b));
+  std::printf("position error without wall %.1f mm, with wall %.1f mm\n",
+              1000.0 * camera.PositionError(a), 1000.0 * camera.PositionError(b));
+  // The direction that the wall determines.
+  const double without = ErrorAcross(wall, camera, a), with = ErrorAcross(wall, camera, b);
+  std::printf("across the wall: without %.1f mm, with %.1f mm\n", 1000.0 * without, 1000.0 * with);
   return with < without ? 0 : 1;
 }

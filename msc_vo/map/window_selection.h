@@ -34,7 +34,8 @@ enum class WindowLinks {
 WindowData SelectWindow(const WindowSelectionOptions& options, const Map& map, KeyframeId keyframe,
                         WindowLinks links = WindowLinks::kLandmarks);
 
-/// Selects all lines of a map that is not empty, and all keyframes, which are fixed.
+/// Selects all lines with enough observations of a map that is not empty, and all keyframes, which
+/// are fixed.
 WindowData SelectLines(const WindowSelectionOptions& options, const Map& map);
 /// Selects the keyframes of the present session, at least one. Those of earlier ones are fixed, or
 /// left out.

@@ -36,8 +36,8 @@ std::vector<CalibratedValue> ListCalibratedValues(const RunSummary& summary) {
   const auto& k = intrinsics.distortion.k;
   const PinholeCamera& depth = summary.depth_camera.camera;
   const Eigen::Vector3d& translation = summary.depth_camera.depth_from_color.translation();
-  // Shifts of the principal points are in focal lengths of the colour images, to which the depth
-  // images of an odometry are registered, well or badly: their pixels are those of colour images.
+  // The depth images of an odometry have the pixels of the colour images, so that shifts of both
+  // principal points are in focal lengths of these.
   const double f = camera.FocalLength();
   return {make("fx", "px", camera.fx, camera.fx, S::kFocalLength, G::kFocalLength),
           make("fy", "px", camera.fy, camera.fy, S::kFocalLength, G::kFocalLength),
@@ -50,9 +50,9 @@ std::vector<CalibratedValue> ListCalibratedValues(const RunSummary& summary) {
           make("depth_cy", "px", depth.cy, f, S::kDepthY, G::kDepthRegistration),
           make("depth_roll", "degrees", RadiansToDegrees(summary.depth_camera.Roll()),
                RadiansToDegrees(1.0), S::kDepthRoll, G::kDepthRegistration),
-          make("depth_x", "mm", 1000.0 * translation.x(), 1000.0, S::kDepthParallaxX,
+          make("depth_x", "mm", 1000.0 * translation.x(), 1000.0 * f / depth.fx, S::kDepthParallaxX,
                G::kDepthRegistration),
-          make("depth_y", "mm", 1000.0 * translation.y(), 1000.0, S::kDepthParallaxY,
+          make("depth_y", "mm", 1000.0 * translation.y(), 1000.0 * f / depth.fy, S::kDepthParallaxY,
                G::kDepthRegistration)};
 }
 

@@ -28,9 +28,9 @@ Eigen::Vector3d PlaceOf(const LineCandidate& line) {
   return 0.5 * (line.segment.start + line.segment.end);
 }
 
-// The landmarks of a map that should be visible from a pose, without those that a surface in the
-// depth image of the frame occludes, or about which it says nothing.
-LocalMap UnoccludedLandmarks(const Map& map, const Frame& frame, const Rigid3& cam_from_world) {
+// The landmarks of a map that should be visible from a pose, without those that the depth image of
+// the frame does not show as visible: they are occluded, or it has no depth there.
+LocalMap LandmarksWithDepth(const Map& map, const Frame& frame, const Rigid3& cam_from_world) {
   LocalMap local = SelectVisibleLandmarks(map, frame, cam_from_world);
   const auto is_hidden = [&](const auto& candidate) {
     const Eigen::Vector3d place = cam_from_world * PlaceOf(candidate);
@@ -46,7 +46,7 @@ LocalMap UnoccludedLandmarks(const Map& map, const Frame& frame, const Rigid3& c
 
 MatchCounts CountMatchesAt(const TrackerOptions& options, const Frame& frame, const Map& map,
                            const NoiseScale& noise_scale, const Rigid3& cam_from_world) {
-  const LocalMap local = UnoccludedLandmarks(map, frame, cam_from_world);
+  const LocalMap local = LandmarksWithDepth(map, frame, cam_from_world);
   const std::vector<PoseFactor> no_factors;
   PoseEstimator estimator(options, map, noise_scale, no_factors);
   const std::optional<FramePose> pose = estimator.MatchAndEstimate(
@@ -62,11 +62,11 @@ enum class PlaceStatus {
 };
 
 PlaceStatus ClassifyPlace(const Frame& frame, const MatchCounts& place, const MatchCounts& found) {
-  // Relative to the place that was found: with fewer landmarks in view, the map does not show most
-  // of what the frame shows, so that missing matches prove nothing.
+  // Relative to the place that was found, of equal density: with fewer landmarks in view, the map
+  // does not show most of what the frame shows, so that missing matches prove nothing.
   constexpr double kMinCoverage = 0.5;
   const int num_matchable = NumMatchable(frame, place, found);
-  if (num_matchable == 0 || num_matchable < kMinCoverage * Sum(found.in_view)) {
+  if (num_matchable == 0 || num_matchable < kMinCoverage * NumMatchable(frame, found, place)) {
     return PlaceStatus::kUnknown;
   }
   return HasComparableMatchRatio(frame, place, found) ? PlaceStatus::kPossible

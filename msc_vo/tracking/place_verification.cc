@@ -61,7 +61,7 @@ struct DominantPlane {
   int num_off = 0;
 };
 
-// None if all positions are collinear. They must not be empty.
+// None if no three of the drawn positions span a plane. They must not be empty.
 std::optional<DominantPlane> FindDominantPlane(const Positions& positions,
                                                const Eigen::Vector3d& camera) {
   constexpr int kNumTrials = 20;  // one is nearly enough if nearly all are coplanar
@@ -111,14 +111,14 @@ double Difference(const View& a, const View& b) {
 }  // namespace
 
 bool IsCoplanar(const Revisit& found, const Map& map, int min_matches) {
-  // A plane through three of ten positions always has few of them off it.
+  // With few matches, fewer than min_matches are off any plane through three of them.
   constexpr double kMaxOffRatio = 0.25;
   const Positions positions = MatchedPositions(found.matches, map);
   if (positions.empty()) return false;
   const Rigid3 cam_from_world = found.cam_from_reference * map.CamFromWorld(found.reference);
   const Eigen::Vector3d camera = cam_from_world.OriginInSource();
   const std::optional<DominantPlane> found_plane = FindDominantPlane(positions, camera);
-  if (!found_plane) return true;
+  if (!found_plane) return true;  // collinear
   const auto& [plane, num_off] = *found_plane;
   const bool is_coplanar =
       num_off < min_matches && num_off < kMaxOffRatio * static_cast<double>(positions.size());

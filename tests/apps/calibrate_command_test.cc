@@ -115,7 +115,9 @@ TEST_F(CalibrateCommandTest, SaysThatNoSuchLensFits) {
                  {"--scene", "slanted", "--frames", "20", "--fps", "5", "--width", "240",
                   "--focal-length", "120", "--lens=fisheye:-0.15,0.02,0,0", "--untold"});
   const std::string camera = Path("camera.yaml");
-  std::vector<std::string> arguments = {"calibrate", Path("wide"), "--output", camera};
+  // With other numbers of points, the best lens may just not fold over.
+  std::vector<std::string> arguments = {
+      "calibrate", Path("wide"), "--output", camera, "--set", "features.points.num_points=1000"};
   CommandOutcome outcome = RunCommand(arguments);
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(LineOf(outcome.output, "k1"), Names("kept"));

@@ -38,12 +38,18 @@ TEST(CalibratedValue, HasTheSigmaOfItsParameter) {
   S::Vector correction = S::Vector::Zero();
   correction(S::kDepthFocalLength) = 0.1;
   const auto values = ValuesByName(CorrectedRun(correction));
-  const std::map<std::string, int> parameters = {
-      {"fx", S::kFocalLength},  {"fy", S::kFocalLength},
-      {"cx", S::kCenterX},      {"cy", S::kCenterY},
-      {"k1", S::kK1},           {"k2", S::kK2},
-      {"depth_cx", S::kDepthX}, {"depth_fx", S::kDepthFocalLength},
-      {"depth_cy", S::kDepthY}, {"depth_roll", S::kDepthRoll}};
+  const std::map<std::string, int> parameters = {{"fx", S::kFocalLength},
+                                                 {"fy", S::kFocalLength},
+                                                 {"cx", S::kCenterX},
+                                                 {"cy", S::kCenterY},
+                                                 {"k1", S::kK1},
+                                                 {"k2", S::kK2},
+                                                 {"depth_cx", S::kDepthX},
+                                                 {"depth_fx", S::kDepthFocalLength},
+                                                 {"depth_cy", S::kDepthY},
+                                                 {"depth_roll", S::kDepthRoll},
+                                                 {"depth_x", S::kDepthParallaxX},
+                                                 {"depth_y", S::kDepthParallaxY}};
   for (const auto& [name, parameter] : parameters) {
     S::Vector changed = correction;
     changed(parameter) += 1e-4;

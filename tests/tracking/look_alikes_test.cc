@@ -77,6 +77,16 @@ TEST_F(LookAlikesTest, RemainPossibleWhereTheMapShowsTheSame) {
   EXPECT_FALSE(AreExcluded(20.0));
 }
 
+// The map has five times as many landmarks of the place, and of what is on its other side.
+TEST_F(LookAlikesTest, RemainPossibleWhereTheMapShowsTheSameLessOften) {
+  for (int visit = 0; visit < 4; ++visit) {
+    AddPlace(&world_, 0.0);
+    AddPlace(&other_world_, -20.0);
+  }
+  AddPlace(&world_, 20.0);
+  EXPECT_FALSE(AreExcluded(20.0));
+}
+
 TEST_F(LookAlikesTest, AreExcludedWhereTheMapShowsSomethingElse) {
   AddPlace(&other_world_, 20.0);
   EXPECT_TRUE(AreExcluded(20.0));

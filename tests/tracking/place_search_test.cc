@@ -100,7 +100,7 @@ std::shared_ptr<const Frame> WithWall(const Frame& frame, double distance) {
   return result;
 }
 
-// The frames see a wall at 3 m. One nearer in the map stands in their way, one behind does not.
+// The frames see a wall at 3 m. A nearer wall of the map would occlude it, a farther one would not.
 TEST_F(PlaceSearchTest, FindsNoPlaceWhoseSurfacesTheCameraLooksThrough) {
   Start({});
   for (const double distance : {1.0, 5.0}) {

@@ -39,8 +39,8 @@ TEST(HasComparableMatchRatio, RequiresHalfOfTheOtherRatio) {
   EXPECT_FALSE(HasComparableMatchRatio(frame, {{200, 0}, 39}, other));
 }
 
-// A frame of 1100 features matches 620 landmarks of a map. Of another place that was seen as often
-// it matches as many, and of one that was seen once its share.
+// A frame of 1100 features. A place seen often (620 of 3000) is found from a map seen once (620 of
+// 900); the edge of a map (60 of 500) from one seen often, but not from one seen once.
 TEST(HasComparableMatchRatio, AllowsForHowOftenPlacesWereSeen) {
   const Frame frame = FrameWith(1100, 0);
   const MatchCounts seen_often{{3000, 0}, 620}, seen_once{{900, 0}, 620}, edge{{500, 0}, 60};
