@@ -16,7 +16,8 @@ void SortMesh(ColoredMesh* mesh) {
   std::iota(order.begin(), order.end(), 0);
   const auto key = [mesh](int32_t i) {
     const Eigen::Vector3f& x = mesh->positions[i];
-    return std::make_tuple(x.x(), x.y(), x.z(), mesh->colors[i]);
+    const Eigen::Vector3f n = mesh->normals.empty() ? Eigen::Vector3f::Zero() : mesh->normals[i];
+    return std::make_tuple(x.x(), x.y(), x.z(), mesh->colors[i], n.x(), n.y(), n.z());
   };
   std::sort(order.begin(), order.end(), [&key](int32_t a, int32_t b) { return key(a) < key(b); });
   ColoredMesh sorted;

@@ -45,5 +45,15 @@ TEST(SortMesh, NormalsFollowTheirVertices) {
   EXPECT_EQ(points.normals[1].z(), 1.0f);
 }
 
+TEST(SortMesh, OrdersPointsThatDifferInTheirNormalsOnly) {
+  ColoredMesh points;
+  points.positions = {{1.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}};
+  points.colors = {{{1, 2, 3}}, {{1, 2, 3}}};
+  points.normals = {{0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}};
+  SortMesh(&points);
+  EXPECT_EQ(points.normals[0].z(), 1.0f);
+  EXPECT_EQ(points.normals[1].y(), 1.0f);
+}
+
 }  // namespace
 }  // namespace msc_vo
