@@ -138,8 +138,8 @@ void PlaceReplacement(benchmark::State& state) {
   for (auto _ : state) {
     state.PauseTiming();
     std::shared_ptr<const Frame> frame = RandomFrame(&random);
-    const auto start = std::chrono::steady_clock::now();
     state.ResumeTiming();
+    const auto start = std::chrono::steady_clock::now();
     index.Add(next, std::move(frame));
     index.Remove(next - num_keyframes);
     ++next;

@@ -41,9 +41,9 @@ class MapWriter {
   std::unique_ptr<State> state_;
 };
 
-/// Writes a map. Replaces the map that the file contains, if there is one; the file
-/// keeps the images of keyframes that are also in `contents` (same session, which has a name, and
-/// same number and time stamp of the image). Throws as MapWriter.
+/// Writes a map. Replaces the map that the file contains, if there is one; the file keeps the
+/// images of keyframes that are also in `contents` (same session, which has a name, and same number
+/// and time stamp of the image). Throws as MapWriter.
 void SaveMap(const std::string& path, MapContents contents, const KeyframeImageSource& images = {});
 
 }  // namespace msc_vo

@@ -44,18 +44,18 @@ void ShareLosses(OdometryOptions* options) {
 // Error message of a relation between options that does not hold, or nullptr.
 const char* RelationError(const OdometryOptions& options) {
   if (!(options.features.min_depth < options.features.max_depth)) {
-    return "depth range: 0 < min_depth < max_depth (metres) must hold";
+    return "features.min_depth must be less than features.max_depth";
   }
   const PointExtractorOptions& points = options.features.points;
   if (points.min_fast_threshold > points.fast_threshold) {
-    return "points.min_fast_threshold must not exceed points.fast_threshold";
+    return "features.points.min_fast_threshold must not exceed features.points.fast_threshold";
   }
   const KeyframePolicyOptions& keyframes = options.tracking.keyframes;
   if (keyframes.min_interval > keyframes.max_interval) {
-    return "keyframe policy: 0 <= min_interval <= max_interval must hold (seconds)";
+    return "tracking.keyframes.min_interval must not exceed tracking.keyframes.max_interval";
   }
   if (options.tracking.min_matches > options.tracking.min_initial_features) {
-    return "tracker: 3 <= min_matches <= min_initial_features must hold";
+    return "tracking.min_matches must not exceed tracking.min_initial_features";
   }
   return nullptr;
 }
@@ -64,14 +64,14 @@ const char* RelationError(const OdometryOptions& options) {
 // invalid.
 const char* UnlistedError(const OdometryOptions& options) {
   if (!(options.tracking.segments.search_interval >= 0.0)) {
-    return "segments: search_interval must not be negative";
+    return "tracking.segments.search_interval must not be negative";
   }
   if (options.mapping.selection.min_observations < 1) {
-    return "window: min_observations must be at least 1";
+    return "mapping.selection.min_observations must be at least 1";
   }
   const double redundant_ratio = options.mapping.culling.redundant_ratio;
   if (!(redundant_ratio > 0.0 && redundant_ratio <= 1.0)) {
-    return "culling: redundant_ratio must be in (0, 1]";
+    return "mapping.culling.redundant_ratio must be in (0, 1]";
   }
   return nullptr;
 }

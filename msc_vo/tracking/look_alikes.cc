@@ -62,8 +62,8 @@ enum class PlaceStatus {
 };
 
 PlaceStatus ClassifyPlace(const Frame& frame, const MatchCounts& place, const MatchCounts& found) {
-  // Relative to the place that was found, of equal density: with fewer landmarks in view, the map
-  // does not show most of what the frame shows, so that missing matches prove nothing.
+  // Relative to the place that was found: where the frame could match fewer landmarks, the map does
+  // not show most of what the frame shows, so that missing matches prove nothing.
   constexpr double kMinCoverage = 0.5;
   const int num_matchable = NumMatchable(frame, place, found);
   if (num_matchable == 0 || num_matchable < kMinCoverage * NumMatchable(frame, found, place)) {

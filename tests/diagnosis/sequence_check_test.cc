@@ -63,6 +63,12 @@ TEST_F(SequenceCheckTest, ReportsNoProblemOfValidSequence) {
   EXPECT_THAT(findings, Contains(Is(Severity::kGood, "ground_truth.overlap", Names("6"))));
 }
 
+TEST_F(SequenceCheckTest, RefusesInvalidOptions) {
+  SequenceCheckOptions options;
+  options.odometry.features.max_depth = options.odometry.features.min_depth;
+  EXPECT_THROW(CheckSequence(RgbdDecoder(index_, calibration_), options), std::invalid_argument);
+}
+
 TEST_F(SequenceCheckTest, ReportsDepthDelays) {
   EXPECT_THAT(Check(), Not(Contains(Field(&Finding::check, "stamps.depth_delay"))));
   index_.entries[1].depth_delay = 0.004;

@@ -44,7 +44,7 @@ Recording Render(SceneKind scene, uint64_t seed, int num_frames) {
 LineError ErrorOfLines(const Recording& recording, Mode mode) {
   OdometryOptions options;
   options.mode = mode;
-  options.features.points.num_points = 1000;
+  options.features.points.num_points = 1000;  // as the ratios below
   Odometry odometry(options, recording.camera, LensDistortion());
   for (const RgbdImage& image : recording.images) odometry.Process(image);
   const OdometryResult result = odometry.Finish();

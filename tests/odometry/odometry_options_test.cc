@@ -4,10 +4,13 @@
 #include "msc_vo/odometry/odometry_options.h"
 
 #include <cmath>
+#include <stdexcept>
 #include <string>
 
 #include "tests/support/message_matchers.h"
 #include <gmock/gmock.h>
+
+#include "msc_vo/odometry/map_merge.h"
 
 namespace msc_vo {
 namespace {
@@ -31,6 +34,12 @@ TEST(OdometryOptions, RequireRelationsBetweenOptions) {
   EXPECT_THAT(ErrorAfter([](OdometryOptions* o) { o->tracking.min_matches = 21; }),
               Names("min_matches", "min_initial_features"));
   EXPECT_EQ(ErrorAfter([](OdometryOptions* o) { o->tracking.min_matches = 20; }), "");
+}
+
+TEST(OdometryOptions, AreCheckedBeforeMapsAreMerged) {
+  OdometryOptions options;
+  options.features.max_depth = options.features.min_depth;
+  EXPECT_THROW(MergeMaps(options, {}, {}), std::invalid_argument);
 }
 
 TEST(OdometryOptions, CheckOptionsThatAreNotListed) {

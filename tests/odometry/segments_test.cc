@@ -13,6 +13,7 @@
 namespace msc_vo {
 namespace {
 
+using ::testing::AnyOf;
 using ::testing::ElementsAre;
 
 // Shorter times than the defaults keep the sequences short.
@@ -300,9 +301,7 @@ TEST_F(SegmentsTest, CallbacksKnowTheWorldOfTheirPoses) {
     }
     odometry.Finish();
     // Segment 1 has a window only if it gets a second keyframe.
-    window_worlds.erase(std::remove(window_worlds.begin(), window_worlds.end(), 1),
-                        window_worlds.end());
-    EXPECT_THAT(window_worlds, ElementsAre(0, 2, 0));
+    EXPECT_THAT(window_worlds, AnyOf(ElementsAre(0, 1, 2, 0), ElementsAre(0, 2, 0)));
   }
 }
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 
+#include "tests/support/calibration_parameters.h"
 #include <gtest/gtest.h>
 
 #include "msc_vo/sensor/depth_camera_correction.h"
@@ -38,19 +39,7 @@ TEST(CalibratedValue, HasTheSigmaOfItsParameter) {
   S::Vector correction = S::Vector::Zero();
   correction(S::kDepthFocalLength) = 0.1;
   const auto values = ValuesByName(CorrectedRun(correction));
-  const std::map<std::string, int> parameters = {{"fx", S::kFocalLength},
-                                                 {"fy", S::kFocalLength},
-                                                 {"cx", S::kCenterX},
-                                                 {"cy", S::kCenterY},
-                                                 {"k1", S::kK1},
-                                                 {"k2", S::kK2},
-                                                 {"depth_cx", S::kDepthX},
-                                                 {"depth_fx", S::kDepthFocalLength},
-                                                 {"depth_cy", S::kDepthY},
-                                                 {"depth_roll", S::kDepthRoll},
-                                                 {"depth_x", S::kDepthParallaxX},
-                                                 {"depth_y", S::kDepthParallaxY}};
-  for (const auto& [name, parameter] : parameters) {
+  for (const auto& [name, parameter] : ParametersOfCalibration()) {
     S::Vector changed = correction;
     changed(parameter) += 1e-4;
     const double change =

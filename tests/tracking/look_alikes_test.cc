@@ -77,7 +77,8 @@ TEST_F(LookAlikesTest, RemainPossibleWhereTheMapShowsTheSame) {
   EXPECT_FALSE(AreExcluded(20.0));
 }
 
-// The map has five times as many landmarks of the place, and of what is on its other side.
+// The map has the landmarks of the found place five times, those of its copy once. A copy on the
+// other side is excluded.
 TEST_F(LookAlikesTest, RemainPossibleWhereTheMapShowsTheSameLessOften) {
   for (int visit = 0; visit < 4; ++visit) {
     AddPlace(&world_, 0.0);
