@@ -47,18 +47,26 @@ class PlaceIndex {
     std::shared_ptr<const Frame> frame;
     int num_words = 0;
   };
-  // Its list keeps the slots of removed keyframes until half of all slots are removed.
+  // Its list keeps the slots of removed keyframes until half of all slots are removed, and it is
+  // this word's turn to be renumbered.
   struct Word {
     PostingList slots;
     int num_keyframes = 0;  // that were not removed
   };
 
-  // Numbers the keyframes anew, without those that were removed.
+  // Numbers the keyframes anew, without those that were removed. Lists have the old slots until
+  // Renumber() reaches them.
   void Compact();
+  // Gives the lists of the next words the new slots.
+  void Renumber(size_t max_words);
+  bool IsRenumbering() const { return !new_slots_.empty(); }
+  bool HasOldSlots(BinaryWord word) const { return IsRenumbering() && word >= num_renumbered_; }
 
   std::map<KeyframeId, Slot> slots_;
-  std::vector<Entry> entries_;  // by slot
-  std::vector<Word> words_;     // empty until the first keyframe is added
+  std::vector<Entry> entries_;   // by slot
+  std::vector<Word> words_;      // empty until the first keyframe is added
+  std::vector<Slot> new_slots_;  // by old slot; empty if all lists have the new ones
+  size_t num_renumbered_ = 0;    // words whose lists have them, as long as others do not
 };
 
 }  // namespace msc_vo

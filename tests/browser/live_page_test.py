@@ -122,8 +122,9 @@ class LivePageTest(unittest.TestCase):
         self.browser.click("#live-pause")
         self.browser.wait_for(lambda: "found in the map" in self.browser.text("#scene-label"),
                               what="the place in the map")
-        self.assertEqual(self.browser.text("#scene-legend").splitlines(),
-                         ["trajectory", "earlier sessions"])
+        # The map, and where the frames before lie in it, come with the next keyframe.
+        self.browser.wait_for(lambda: self.browser.text("#scene-legend").splitlines() ==
+                              ["trajectory", "earlier sessions"], what="the sessions of the map")
         self.assertRegex(self.browser.text("#place"), r"(?s)frame \d+.*keyframe \d+")
         self.control(url, "speed&value=0")
         self.browser.wait_for(lambda: "APE RMSE" in self.browser.text("body"), what="the report")

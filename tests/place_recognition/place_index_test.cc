@@ -72,6 +72,24 @@ TEST_F(PlaceIndexTest, DependsOnItsKeyframesAlone) {
   EXPECT_EQ(Pairs(detour.Query(seen, kNumPlaces)), Pairs(straight.Query(seen, kNumPlaces)));
 }
 
+// Words are renumbered a share at a time, while keyframes come and go.
+TEST_F(PlaceIndexTest, IsTheSameWhileItIsRenumbered) {
+  PlaceIndex index;
+  KeyframeId next = 0, oldest = 0;
+  const auto frame_of = [this](KeyframeId id) { return Shared(frames_[id % kNumPlaces]); };
+  const auto add = [&] { index.Add(next, frame_of(next)), ++next; };
+  for (int i = 0; i < 200; ++i) add();
+  const Frame seen = Seen(30);
+  for (int i = 0; i < 1500; ++i) {
+    index.Remove(oldest++);
+    add();
+    if (i % 100 != 50) continue;
+    PlaceIndex straight;
+    for (KeyframeId id = oldest; id < next; ++id) straight.Add(id, frame_of(id));
+    ASSERT_EQ(Pairs(index.Query(seen, 200)), Pairs(straight.Query(seen, 200))) << i;
+  }
+}
+
 TEST_F(PlaceIndexTest, RanksEqualScoresFromNewestToOldest) {
   PlaceIndex index;
   for (const int id : {5, 9, 2}) index.Add(id, Shared(frames_[0]));
