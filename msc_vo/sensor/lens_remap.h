@@ -3,6 +3,9 @@
 
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 
@@ -31,8 +34,9 @@ class LensRemap {
   /// Precomputes the remap tables and the mask for images of `camera`, both of which must be valid.
   LensRemap(const PinholeCamera& camera, const LensDistortion& distortion);
 
-  /// Undistorts a raw image with bilinear interpolation. Returns the raw image itself without
-  /// distortion.
+  /// Undistorts a raw image of the camera, CV_8UC1, with bilinear interpolation. Pixels outside it
+  /// repeat its border, which adds no edge; the mask excludes them. Returns the raw image itself
+  /// without distortion.
   cv::Mat Undistort(const cv::Mat& raw) const;
 
   /// CV_8UC1, 255 at pixels of the ideal image that lie inside the raw image; empty without
@@ -55,8 +59,11 @@ class LensRemap {
  private:
   PinholeCamera camera_;
   LensDistortion distortion_;
-  cv::Mat map_;       // CV_16SC2, integer part of the raw pixels
-  cv::Mat fraction_;  // CV_16UC1, fractional part; the representation cv::remap is fastest with
+  // Of each pixel of the ideal image, the raw pixel to its upper left in an image with one more
+  // column and row, and how far it is from there towards the right and the bottom, in 32nds of a
+  // pixel.
+  std::vector<uint32_t> raw_pixels_;
+  std::vector<uint8_t> right_, down_;
   cv::Mat mask_;
 };
 

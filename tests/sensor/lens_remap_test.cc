@@ -49,6 +49,35 @@ TEST(LensRemap, MaskCoversRawImage) {
   EXPECT_EQ(lens.mask().at<uint8_t>(0, 0), 0);
 }
 
+// Bilinear interpolation with positions rounded to 32nds of a pixel, beyond the border, too.
+TEST(LensRemap, InterpolatesAsOpenCvDoes) {
+  LensDistortion barrel;
+  barrel.k[0] = 0.3;
+  for (const LensDistortion& distortion : {barrel, testing::Freiburg1Distortion()}) {
+    const PinholeCamera camera = testing::Freiburg1Camera();
+    cv::Mat wide(camera.height, camera.width + 7, CV_8UC1), expected;
+    cv::RNG(3).fill(wide, cv::RNG::UNIFORM, 0, 256);
+    const cv::Mat raw = wide.colRange(0, camera.width);  // not contiguous
+    cv::Mat map(raw.size(), CV_32FC2);
+    for (int y = 0; y < camera.height; ++y) {
+      for (int x = 0; x < camera.width; ++x) {
+        map.at<cv::Vec2f>(y, x) = cv::Vec2d(distortion.Distort(camera, Vector2d(x, y)).data());
+      }
+    }
+    cv::remap(raw, expected, map, cv::noArray(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+    const cv::Mat ideal = LensRemap(camera, distortion).Undistort(raw);
+    EXPECT_EQ(cv::norm(ideal, expected, cv::NORM_INF), 0.0);
+  }
+}
+
+TEST(LensRemap, UndistortsImagesOfOnePixel) {
+  LensDistortion barrel;
+  barrel.k[0] = 0.3;
+  const cv::Mat raw(1, 1, CV_8UC1, cv::Scalar(7));
+  const cv::Mat ideal = LensRemap({1.0, 1.0, 0.5, 0.5, 1, 1}, barrel).Undistort(raw);
+  EXPECT_EQ(ideal.at<uint8_t>(0, 0), 7);
+}
+
 TEST(LensRemap, UndistortsStraightLines) {
   const PinholeCamera camera = testing::Freiburg1Camera();
   // A long edge near the upper border, where the lens bends it by pixels.
