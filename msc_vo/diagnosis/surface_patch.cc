@@ -31,7 +31,7 @@ class QuadraticFit {
   void Add(double x, double y, double value) {
     Coefficients basis;
     basis << 1.0, x, y, x * x, x * y, y * y;
-    matrix_.selfadjointView<Eigen::Lower>().rankUpdate(basis);
+    matrix_ += basis.lazyProduct(basis.transpose());
     rhs_ += value * basis;
     ++count_;
   }
@@ -40,8 +40,7 @@ class QuadraticFit {
   // Returns false if the polynomial is not determined.
   bool Solve() {
     if (count_ <= rhs_.size()) return false;
-    const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> ldlt(
-        Eigen::Matrix<double, 6, 6>(matrix_.selfadjointView<Eigen::Lower>()));
+    const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> ldlt(matrix_);
     coefficients_ = ldlt.solve(rhs_);
     covariance_ = ldlt.solve(Eigen::Matrix<double, 6, 6>::Identity());
     return coefficients_.allFinite() && covariance_.allFinite();

@@ -92,6 +92,14 @@ void AddKeyframes(const Map& map, const std::set<KeyframeId>& window,
   }
 }
 
+// The number of observations of landmarks by any keyframes.
+template <typename L>
+size_t NumObservations(const std::vector<const L*>& landmarks) {
+  size_t count = 0;
+  for (const L* landmark : landmarks) count += landmark->observations.size();
+  return count;
+}
+
 // Adds the observations of the landmark by the given keyframes.
 template <typename L, typename O>
 void AddObservations(const KeyframeIndex& keyframes, const L& landmark,
@@ -105,6 +113,8 @@ void AddObservations(const KeyframeIndex& keyframes, const L& landmark,
 
 void AddLines(const KeyframeIndex& keyframes, const std::vector<const LineLandmark*>& lines,
               WindowData* data) {
+  data->lines.reserve(lines.size());
+  data->line_observations.reserve(NumObservations(lines));
   for (const LineLandmark* line : lines) {
     data->lines.push_back({line->id, line->segment, false, line->noise, line->depth_offset});
     AddObservations(keyframes, *line, &data->line_observations);
@@ -160,6 +170,8 @@ WindowData MakeWindow(const WindowSelectionOptions& options, const Map& map,
   for (const WindowData::Keyframe& selected : data.keyframes) {
     keyframes.Add(*map.FindKeyframe(selected.id));
   }
+  data.points.reserve(points.size());
+  data.point_observations.reserve(NumObservations(points));
   for (const PointLandmark* point : points) {
     data.points.push_back({point->id, point->position, false, point->noise});
     AddObservations(keyframes, *point, &data.point_observations);

@@ -68,6 +68,7 @@ class Linearizer {
     SetZero(structure_.num_lines, static_cast<int>(structure_.line_blocks.pose.size()),
             &equations_->lines);
     equations_->line_couplings.clear();
+    equations_->line_couplings.reserve(structure_.line_pairs.size());
     equations_->custom_couplings.clear();
     SetExtraZero();
     rotations_.clear();

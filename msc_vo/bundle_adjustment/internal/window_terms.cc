@@ -73,6 +73,11 @@ class WindowTermsBuilder {
   }
 
   void AddLines() {
+    auto& reprojections = terms_.Of<LineReprojection>().blocks;
+    auto& depths = terms_.Of<LineDepthReprojection>().blocks;
+    reprojections.reserve(index_.lines.size());
+    depths.reserve(std::count_if(data_.line_observations.begin(), data_.line_observations.end(),
+                                 [](const auto& o) { return o.has_depth; }));
     for (size_t i = 0; i < index_.lines.size(); ++i) {
       const auto& [keyframe, line] = index_.lines[i];
       const WindowData::LineObservation& o = data_.line_observations[i];
@@ -89,7 +94,7 @@ class WindowTermsBuilder {
         LineReprojection factor =
             MakeLineReprojection(data_.camera, o.segment, noise * o.sigma, in_cam);
         factor.SetPart(*part);
-        terms_.Of<LineReprojection>().blocks.push_back({factor, {keyframe, line}, Source(i)});
+        reprojections.push_back({factor, {keyframe, line}, Source(i)});
       }
       if (used.depth) {
         LineDepth depth = Nearer(o.depth, data_.lines[line].depth_offset);
@@ -97,7 +102,7 @@ class WindowTermsBuilder {
         LineDepthReprojection factor =
             MakeLineDepthReprojection(data_.camera, o.segment, depth, in_cam);
         factor.SetPart(*part);
-        terms_.Of<LineDepthReprojection>().blocks.push_back({factor, {keyframe, line}, Source(i)});
+        depths.push_back({factor, {keyframe, line}, Source(i)});
       }
     }
   }
@@ -139,6 +144,7 @@ class WindowTermsBuilder {
   void AddRelations(const RelationTerm<Factor, Record>& term) {
     if (!(options_.*term.options).enabled) return;
     const std::vector<Record>& records = data_.*term.records;
+    terms_.Of<Factor>().blocks.reserve(records.size());
     for (size_t i = 0; i < records.size(); ++i) {
       const auto& lines = (index_.*term.lines)[i];
       const auto is_constrained = [this](int line) { return terms_.line_constrained[line]; };
