@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
+#include <system_error>
 
 #include "msc_vo/text/text_file.h"
 
@@ -33,6 +34,15 @@ CameraPreset WithDepthCamera(CameraPreset preset, const PinholeCamera& camera,
 // docs/lab/rolling_shutter.md.
 constexpr double kKinectReadout = 0.026;
 constexpr double kGlobalShutter = 0.0;
+
+// The name of a folder or file, also if the path is "." or ends with "/".
+std::string NameOf(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code error;  // set if the working directory was deleted
+  const fs::path absolute = fs::absolute(path, error).lexically_normal();
+  if (error) return fs::path(path).filename().string();
+  return (absolute.has_filename() ? absolute : absolute.parent_path()).filename().string();
+}
 
 }  // namespace
 
@@ -69,7 +79,7 @@ const CameraPreset& FindCameraPreset(const std::string& name) {
 }
 
 std::string GuessCameraPreset(const std::string& directory) {
-  const std::string name = Lowercase(std::filesystem::path(directory).filename().string());
+  const std::string name = Lowercase(NameOf(directory));
   for (const char digit : {'1', '2', '3'}) {
     if (name.find(std::string("freiburg") + digit) != std::string::npos ||
         (name.rfind(std::string("fr") + digit, 0) == 0 &&

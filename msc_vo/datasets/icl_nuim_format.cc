@@ -28,12 +28,13 @@ bool HasIclNuimAssociations(const std::string& directory) {
   const std::string path = FindAssociations(directory);
   if (path.empty()) return false;
   std::vector<double> stamps;
-  for (const TextLine& line : ReadTextLines(path)) {
+  const std::vector<TextLine> lines = ReadTextLines(path);
+  for (const TextLine& line : lines) {
     const std::optional<double> stamp = ParseNumber(line.fields.front());
     if (line.fields.size() != 4 || !stamp || line.fields[1].rfind("depth", 0) != 0) return false;
     stamps.push_back(*stamp);
   }
-  return AreFrameNumbers(stamps);
+  return AreFrameNumbers(stamps) && IsDepthFirst(lines);
 }
 
 // Requires properties of this data set only, because its camera is mirrored.

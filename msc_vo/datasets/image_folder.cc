@@ -19,8 +19,8 @@ namespace {
 
 bool HasImageExtension(const fs::path& path) {
   const std::string extension = Lowercase(path.extension().string());
-  constexpr const char* kExtensions[] = {".png", ".jpg",  ".jpeg", ".pgm", ".ppm",
-                                         ".bmp", ".tiff", ".tif",  ".exr"};
+  constexpr const char* kExtensions[] = {".png", ".jpg",  ".jpeg", ".pgm", ".ppm", ".pnm",
+                                         ".bmp", ".tiff", ".tif",  ".exr", ".webp"};
   return std::find(std::begin(kExtensions), std::end(kExtensions), extension) !=
          std::end(kExtensions);
 }

@@ -10,9 +10,12 @@
 
 #include <opencv2/core.hpp>
 
+#include "msc_vo/datasets/clock_step.h"
 #include "msc_vo/datasets/stamp_precision.h"
+#include "msc_vo/datasets/time_unit.h"
 #include "msc_vo/image_files/image_file.h"
 #include "msc_vo/text/files.h"
+#include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -52,16 +55,38 @@ bool NamesDepth(const std::string& path) {
   return Lowercase(path).find("depth") != std::string::npos;
 }
 
-bool HasSixteenBits(const std::string& path) {
-  // Unreadable files are reported when their frame is decoded.
-  return FileProblem(path, kMaxImageBytes).empty() && ReadImageFile(path).depth() == CV_16U;
+// Tests whether the image of a row has the pixels of a depth image: one channel of more than 8
+// bits. None if it cannot be read, which is reported when its frame is decoded.
+std::optional<bool> HasDepthPixels(const TextLine& line, size_t field) {
+  const std::string path = ResolvePath(line, field);
+  if (!FileProblem(path, kMaxImageBytes).empty()) return std::nullopt;
+  try {
+    const cv::Mat image = ReadImageFile(path);
+    if (image.empty()) return std::nullopt;
+    return image.channels() == 1 && image.elemSize1() > 1;
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
 }
 
-// Tests whether the first image of the row is the depth image.
-bool IsDepthFirst(const TextLine& line) {
-  const bool first = NamesDepth(line.fields[1]);
-  if (first != NamesDepth(line.fields[3])) return first;
-  return HasSixteenBits(ResolvePath(line, 1)) && !HasSixteenBits(ResolvePath(line, 3));
+// Throws std::runtime_error if the clock was set back in the list. `images` are those of the stamps
+// in a field of the lines.
+void RequireOneClock(const std::vector<TextLine>& lines, size_t field,
+                     const std::vector<ListedImage>& images) {
+  const std::optional<size_t> step = FindClockStep(images);
+  if (!step) return;
+  std::vector<double> stamps;
+  for (const ListedImage& image : images) stamps.push_back(image.stamp);
+  std::string distance;
+  if (!AreFrameNumbers(stamps)) {
+    const double rate = UnitsPerSecond(GuessTimeUnit(stamps, std::nullopt, kMaxImageInterval));
+    const double expected = 2.0 * stamps[*step - 1] - stamps[*step - 2];
+    distance = FormatText(" by about %.3f s", (expected - stamps[*step]) / rate);
+  }
+  lines[*step].Fail("the clock goes back" + distance + ", from " + lines[*step - 1].fields[field] +
+                    " to " + lines[*step].fields[field] +
+                    ", into a time that has images already; correct the stamps from this line on, "
+                    "or sort the list by time if they are right");
 }
 
 void CheckAssociation(const TextLine& line) {
@@ -99,6 +124,7 @@ std::vector<ListedImage> ReadImageList(const std::string& path,
     throw std::runtime_error(path + ": lists no image; expected 'time path' rows");
   }
   CheckPrecision(lines, {0}, warnings);
+  RequireOneClock(lines, 0, images);
   const auto earlier = [](const ListedImage& a, const ListedImage& b) { return a.stamp < b.stamp; };
   const auto unordered = std::is_sorted_until(images.begin(), images.end(), earlier);
   if (unordered != images.end()) {
@@ -109,6 +135,23 @@ std::vector<ListedImage> ReadImageList(const std::string& path,
   return images;
 }
 
+bool IsDepthFirst(const std::vector<TextLine>& lines) {
+  constexpr size_t kMaxTries = 10;
+  for (size_t i = 0; i < std::min(lines.size(), kMaxTries); ++i) {
+    const std::optional<bool> first = HasDepthPixels(lines[i], 1);
+    const std::optional<bool> second = HasDepthPixels(lines[i], 3);
+    if (!first || !second) continue;
+    if (*first != *second) return *first;
+    break;
+  }
+  const TextLine& line = lines.front();
+  const bool named_first = NamesDepth(line.fields[1]);
+  if (named_first != NamesDepth(line.fields[3])) return named_first;
+  const std::optional<bool> first = HasDepthPixels(line, 1);
+  const std::optional<bool> second = HasDepthPixels(line, 3);
+  return first.has_value() != second.has_value() && (first ? *first : !*second);
+}
+
 ImageLists ReadAssociations(const std::string& path, std::vector<std::string>* warnings) {
   const std::vector<TextLine> lines = ReadTextLines(path);
   if (lines.empty()) {
@@ -116,7 +159,7 @@ ImageLists ReadAssociations(const std::string& path, std::vector<std::string>* w
   }
   for (const TextLine& line : lines) CheckAssociation(line);
   CheckPrecision(lines, {0, 2}, warnings);
-  const bool depth_first = IsDepthFirst(lines.front());
+  const bool depth_first = IsDepthFirst(lines);
   const auto image = [](const TextLine& line, size_t field) {
     return ListedImage{ParseStamp(line, field), ResolvePath(line, field + 1), line.Where()};
   };
@@ -125,6 +168,7 @@ ImageLists ReadAssociations(const std::string& path, std::vector<std::string>* w
     images.color.push_back(image(line, depth_first ? 2 : 0));
     images.depth.push_back(image(line, depth_first ? 0 : 2));
   }
+  RequireOneClock(lines, depth_first ? 2 : 0, images.color);
   return images;
 }
 

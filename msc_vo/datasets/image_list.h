@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "msc_vo/text/text_file.h"
+
 namespace msc_vo {
 
 /// An image named by a row of rgb.txt or depth.txt, or by half a row of an association file.
@@ -24,15 +26,21 @@ struct ImageLists {
 
 /// Reads "time path" rows, whose paths are relative to the folder of the list, in order of time.
 /// Adds a warning if the rows are in another order or the stamps lost digits.
-/// Throws std::runtime_error naming file and line if a row does not fit.
+/// Throws std::runtime_error naming file and line if a row does not fit or the clock was set back,
+/// see FindClockStep().
 std::vector<ListedImage> ReadImageList(const std::string& path, std::vector<std::string>* warnings);
 
 /// Reads an association file with "time path time path" rows, colour and depth in either order. The
-/// images of a row are at the same position of both lists. Which column is depth follows from the
-/// folder names, or else from the bit depth of the first pair. Adds a warning if the stamps lost
-/// digits.
-/// Throws std::runtime_error naming file, line and fix if a row does not fit.
+/// images of a row are at the same position of both lists, see IsDepthFirst(). Adds a warning if
+/// the stamps lost digits.
+/// Throws std::runtime_error naming file, line and fix if a row does not fit or the clock of the
+/// colour images was set back.
 ImageLists ReadAssociations(const std::string& path, std::vector<std::string>* warnings);
+
+/// Tests whether the rows "time path time path" name the depth image first. The first row whose
+/// images can both be read decides, by their channels and bit depth; if these are alike, or none of
+/// the first ten rows can be read, the word "depth" in the paths of the first row.
+bool IsDepthFirst(const std::vector<TextLine>& lines);
 
 /// Returns the path of the association file of a folder; empty if there is none.
 std::string FindAssociations(const std::string& directory);

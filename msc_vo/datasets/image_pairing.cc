@@ -22,16 +22,13 @@ std::vector<double> StampsOf(const std::vector<ListedImage>& images) {
   return stamps;
 }
 
-// Stamps that differ by more than `max_difference` seconds are of different clocks and give no
-// delay.
-void AddPair(const ListedImage& color, const ListedImage& depth, double max_difference,
+// `delay`: seconds from the colour image to the depth image.
+void AddPair(const ListedImage& color, const ListedImage& depth, double delay,
              SequenceIndex* index) {
   const bool same_row = color.origin == depth.origin;
-  const double delay = depth.stamp - color.stamp;
-  const bool same_clock = std::abs(delay) <= max_difference;
   index->entries.push_back({color.stamp, color.path, depth.path,
-                            same_row ? color.origin : color.origin + " and " + depth.origin,
-                            same_clock ? delay : 0.0, color.index, depth.index});
+                            same_row ? color.origin : color.origin + " and " + depth.origin, delay,
+                            color.index, depth.index});
 }
 
 // Warns if one list begins and ends later than the other by the same time. Recordings may differ at
@@ -67,7 +64,9 @@ void PairByTime(const ImageLists& images, double max_difference, SequenceIndex* 
   const std::vector<StampMatch> matches =
       AssociateStamps(StampsOf(images.color), StampsOf(images.depth), max_difference);
   for (const StampMatch& match : matches) {
-    AddPair(images.color[match.reference], images.depth[match.query], max_difference, index);
+    const ListedImage& color = images.color[match.reference];
+    const ListedImage& depth = images.depth[match.query];
+    AddPair(color, depth, depth.stamp - color.stamp, index);
   }
   index->num_listed = std::min(images.color.size(), images.depth.size());
   const size_t num_unpaired = images.color.size() - matches.size();
@@ -88,11 +87,33 @@ void PairByTime(const ImageLists& images, double max_difference, SequenceIndex* 
 
 void PairByRow(const ImageLists& images, SequenceIndex* index) {
   const double max_difference = MaxPairDifference(images);
-  index->num_listed = images.color.size();
-  for (size_t i = 0; i < images.color.size(); ++i) {
-    AddPair(images.color[i], images.depth[i], max_difference, index);
+  const size_t num_rows = images.color.size();
+  index->num_listed = num_rows;
+  const auto delay = [&](size_t i) { return images.depth[i].stamp - images.color[i].stamp; };
+  std::vector<size_t> apart;  // rows
+  for (size_t i = 0; i < num_rows; ++i) {
+    constexpr double kRounding = 1e-6;  // seconds, of stamps since 1970
+    if (std::abs(delay(i)) > max_difference + kRounding) apart.push_back(i);
   }
-  CheckOffset(images, max_difference, index);
+  // By chance, few rows agree if the clocks differ.
+  const bool same_clock = 4 * (num_rows - apart.size()) >= num_rows;
+  for (size_t i = 0; i < num_rows; ++i) {
+    if (same_clock && std::binary_search(apart.begin(), apart.end(), i)) continue;
+    AddPair(images.color[i], images.depth[i], same_clock ? delay(i) : 0.0, index);
+  }
+  if (!apart.empty() && apart.size() < num_rows) {
+    const size_t first = apart.front();
+    index->warnings.push_back(FormatText(
+        "%s: the stamps of colour and depth differ by %.3f s, and in %zu of %zu rows by more than "
+        "%.0f ms; %s",
+        images.color[first].origin.c_str(), std::abs(delay(first)), apart.size(), num_rows,
+        1e3 * max_difference,
+        same_clock ? "these rows are left out; if their images belong together, write the stamp of "
+                     "the colour image for both"
+                   : "the clocks are taken for different ones and all rows are used; check the "
+                     "pairs"));
+  }
+  if (!same_clock) CheckOffset(images, max_difference, index);
 }
 
 }  // namespace msc_vo

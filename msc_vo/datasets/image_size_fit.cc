@@ -3,6 +3,7 @@
 
 #include "msc_vo/datasets/image_size_fit.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <string>
@@ -37,6 +38,12 @@ DepthCamera CameraAtSameView(const PinholeCamera& camera, const LensDistortion& 
 bool HaveSameShape(const ImageSize& a, const ImageSize& b) {
   const double height = static_cast<double>(a.height) * b.width / a.width;
   return std::abs(height - b.height) <= 1.0;
+}
+
+bool HaveSimilarShape(const ImageSize& a, const ImageSize& b) {
+  constexpr double kMaxDeviation = 0.01;
+  const double height = static_cast<double>(a.height) * b.width / a.width;
+  return std::abs(height - b.height) <= std::max(1.0, kMaxDeviation * b.height);
 }
 
 PinholeCamera ScaledCamera(const PinholeCamera& camera, const ImageSize& size) {

@@ -24,6 +24,9 @@ PinholeCamera ScaledCamera(const PinholeCamera& camera, const ImageSize& size);
 /// Whether one image size is the other scaled, up to the rounding of a side to whole pixels.
 bool HaveSameShape(const ImageSize& a, const ImageSize& b);
 
+/// The same up to 1 % of the height: ScanNet registers depth of 640x480 to colour of 1296x968.
+bool HaveSimilarShape(const ImageSize& a, const ImageSize& b);
+
 /// Fits a calibration to colour and depth images of these sizes; it is that of the recorded images,
 /// SetUndistorted() must follow.
 ///

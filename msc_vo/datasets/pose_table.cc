@@ -8,6 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "msc_vo/datasets/median_interval.h"
 #include "msc_vo/datasets/stamp_precision.h"
 #include "msc_vo/datasets/time_unit.h"
 #include "msc_vo/datasets/trajectory_comment.h"
@@ -109,11 +110,16 @@ PoseColumns FormatColumns(bool is_scalar_first) {
   return columns;
 }
 
-// Comma-separated rows with nanoseconds are those of EuRoC.
+// Comma-separated rows with nanoseconds are those of EuRoC. Poses 1 to 5 ms apart could be
+// microseconds at 1 to 5 s, which nobody writes.
 bool LooksLikeEuroc(const std::vector<TextLine>& rows) {
+  constexpr double kShortest = 1e6;  // nanoseconds
   const std::vector<double> first = NumbersOf(rows, 0);
-  return rows.front().has_delimiters && !first.empty() &&
-         GuessTimeUnit(first) == TimeUnit::kNanoseconds;
+  if (!rows.front().has_delimiters || first.empty()) return false;
+  const TimeUnit unit = GuessTimeUnit(first);
+  return unit == TimeUnit::kNanoseconds ||
+         (unit == TimeUnit::kMicroseconds && !UnitOfDate(first.front()) &&
+          MedianInterval(first) >= kShortest);
 }
 
 std::vector<PoseColumns> UnnamedCandidates(const std::vector<TextLine>& rows,

@@ -15,6 +15,7 @@
 
 #include "msc_vo/datasets/clipped_depth_search.h"
 #include "msc_vo/datasets/image_masks.h"
+#include "msc_vo/datasets/image_size_fit.h"
 #include "msc_vo/image_files/image_file.h"
 #include "msc_vo/sensor/image_mask.h"
 #include "msc_vo/text/files.h"
@@ -62,8 +63,10 @@ cv::Mat DecodeStored(const StoredImage& stored, const std::string& path,
 
 std::string TypeText(const cv::Mat& image) {
   const int bits = static_cast<int>(8 * image.elemSize1());
+  const bool is_signed =
+      image.depth() == CV_8S || image.depth() == CV_16S || image.depth() == CV_32S;
   return std::to_string(image.channels()) + " channel" + (image.channels() == 1 ? "" : "s") +
-         " of " + std::to_string(bits) + " bits";
+         " of " + (is_signed ? "signed " : "") + std::to_string(bits) + " bits";
 }
 
 cv::Mat ToGray(const cv::Mat& image) {
@@ -112,6 +115,9 @@ double MedianMeasured(const cv::Mat& metres) {
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
+
+constexpr char kRegisterDepth[] =
+    "register the depth to the colour image first, or describe the depth camera in camera.txt";
 
 // The largest median depth that is taken for metres, as in the finding depth.scale.
 constexpr double kMaxMedianDepth = 40.0;
@@ -233,10 +239,11 @@ RgbdImage RgbdDecoder::MakeImage(int i, const SequenceEntry& entry, cv::Mat colo
          "has " + TypeText(color) + "; colour images need 8 bits and 1, 3 or 4 channels");
   }
   CheckDepthType(depth, entry);
-  CheckDepthSize(depth, entry);
   const cv::Size size(calibration_.camera.width, calibration_.camera.height);
   const ImageSize recorded_size{color.cols, color.rows};
-  if (index_.scale_color && color.cols > size.width && color.rows > size.height) {
+  CheckDepthSize(depth, recorded_size, entry);
+  if (index_.scale_color && color.cols > size.width && color.rows > size.height &&
+      HaveSimilarShape(recorded_size, {size.width, size.height})) {
     cv::resize(color, color, size, 0.0, 0.0, cv::INTER_AREA);
   }
   CheckColorSize(color, depth, entry);
@@ -282,21 +289,23 @@ void RgbdDecoder::CheckDepthType(const cv::Mat& depth, const SequenceEntry& entr
   }
   Fail(entry.depth_path, entry,
        "has " + TypeText(depth) +
-           "; depth images need 1 channel of 16 bits or of floating-point numbers (a visualisation "
-           "of the depth does not "
-           "contain the measurements)");
+           "; depth images need 1 channel of unsigned 16 bits or of floating-point numbers (a "
+           "visualisation of the depth does not contain the measurements)");
 }
 
-void RgbdDecoder::CheckDepthSize(const cv::Mat& depth, const SequenceEntry& entry) const {
+void RgbdDecoder::CheckDepthSize(const cv::Mat& depth, const ImageSize& color,
+                                 const SequenceEntry& entry) const {
   const bool has_depth_camera = calibration_.depth_camera.has_value();
   const PinholeCamera& camera =
       has_depth_camera ? calibration_.depth_camera->camera : calibration_.camera;
   if (depth.cols == camera.width && depth.rows == camera.height) return;
+  const bool is_of_color =
+      !has_depth_camera && color.width == camera.width && color.height == camera.height;
   Fail(entry.depth_path, entry,
        "is " + SizeText(depth.cols, depth.rows) + ", but the " +
            (has_depth_camera ? "depth camera" : "camera") + " is " +
-           SizeText(camera.width, camera.height) + " (" + calibration_.origin +
-           "); give the calibration of these images");
+           SizeText(camera.width, camera.height) + " (" + calibration_.origin + "); " +
+           (is_of_color ? kRegisterDepth : "give the calibration of these images"));
 }
 
 void RgbdDecoder::CheckColorSize(const cv::Mat& color, const cv::Mat& depth,
@@ -311,9 +320,7 @@ void RgbdDecoder::CheckColorSize(const cv::Mat& color, const cv::Mat& depth,
   }
   Fail(entry.color_path, entry,
        size + ", but its depth image " + entry.depth_path + " is " +
-           SizeText(depth.cols, depth.rows) +
-           "; register the depth to the colour image first, or describe the depth camera in "
-           "camera.txt");
+           SizeText(depth.cols, depth.rows) + "; " + kRegisterDepth);
 }
 
 }  // namespace msc_vo

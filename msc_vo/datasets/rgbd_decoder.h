@@ -12,6 +12,7 @@
 #include "msc_vo/datasets/image_container.h"
 #include "msc_vo/datasets/rgbd_camera.h"
 #include "msc_vo/datasets/sequence.h"
+#include "msc_vo/image_files/image_file.h"
 #include "msc_vo/sensor/depth_registration.h"
 #include "msc_vo/sensor/rgbd_image.h"
 
@@ -81,7 +82,8 @@ class RgbdDecoder {
   RgbdImage DecodePair(int i, const StoredRgbd& stored) const;
   RgbdImage MakeImage(int i, const SequenceEntry& entry, cv::Mat color, const cv::Mat& depth) const;
   void CheckDepthType(const cv::Mat& depth, const SequenceEntry& entry) const;
-  void CheckDepthSize(const cv::Mat& depth, const SequenceEntry& entry) const;
+  void CheckDepthSize(const cv::Mat& depth, const ImageSize& color,
+                      const SequenceEntry& entry) const;
   void CheckColorSize(const cv::Mat& color, const cv::Mat& depth, const SequenceEntry& entry) const;
 
   SequenceIndex index_;

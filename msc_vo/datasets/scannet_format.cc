@@ -51,7 +51,11 @@ void ReadIntrinsics(const fs::path& folder, SequenceIndex* index) {
   Calibration calibration;
   calibration.depth_scale = 1000.0;  // millimetres
   if (HasEntry(color_file)) {
-    calibration.camera = CameraOf(ReadMatrix(color_file, 4, 4), color, depth);
+    // Depth of another shape is not registered to colour: without a description of its camera,
+    // decoding refuses it.
+    index->scale_color = HaveSimilarShape(color, depth);
+    calibration.camera =
+        CameraOf(ReadMatrix(color_file, 4, 4), color, index->scale_color ? depth : color);
     calibration.origin = color_file;
   } else if (HasEntry(depth_file)) {
     calibration.camera = CameraOf(ReadMatrix(depth_file, 4, 4), depth, depth);

@@ -15,6 +15,9 @@ namespace {
 constexpr TimeUnit kUnits[] = {TimeUnit::kSeconds, TimeUnit::kMilliseconds, TimeUnit::kMicroseconds,
                                TimeUnit::kNanoseconds};
 
+// Shortest median interval of the poses of a trajectory or of the readings of a sensor, seconds.
+constexpr double kMinInterval = 1e-4;
+
 // Intersection over union of two time ranges, 0..1.
 double Overlap(const TimeRange& a, const TimeRange& b) {
   const double common = std::min(a.end, b.end) - std::max(a.begin, b.begin);
@@ -85,13 +88,21 @@ std::optional<TimeUnit> UnitOfDate(double stamp) {
 TimeUnit GuessTimeUnit(const std::vector<double>& stamps, const std::optional<TimeRange>& reference,
                        double max_interval) {
   const TimeUnit own = GuessOwnUnit(stamps, max_interval);
-  if (!reference) return own;
+  if (!reference || stamps.empty()) return own;
   const TimeRange counted = RangeOf(stamps, own);
   const auto overlap_in = [&](TimeUnit unit) {
     const double rate = UnitsPerSecond(unit);
     return Overlap({counted.begin / rate, counted.end / rate, unit}, *reference);
   };
-  return overlap_in(reference->unit) > overlap_in(own) ? reference->unit : own;
+  const double interval = MedianInterval(stamps);
+  TimeUnit best = own;
+  for (const TimeUnit unit : kUnits) {
+    const double seconds = interval / UnitsPerSecond(unit);
+    const bool is_plausible = seconds >= kMinInterval && seconds < kMaxImageInterval;
+    if (!is_plausible && unit != reference->unit) continue;
+    if (overlap_in(unit) > overlap_in(best)) best = unit;
+  }
+  return best;
 }
 
 bool AreFrameNumbers(const std::vector<double>& stamps) {

@@ -39,8 +39,9 @@ constexpr double kMaxPoseInterval = 3600.0;
 /// Guesses the unit of the stamps of a recording, which may be in any order: the unit in which they
 /// are dates of this century at a median interval of less than `max_interval` seconds, or else the
 /// first one in which the interval is below kMaxImageInterval. If `reference` is given, the range
-/// of other stamps of the same recording, its unit takes precedence if the two ranges overlap more
-/// in that unit.
+/// of other stamps of the same recording, another unit takes precedence if the two ranges overlap
+/// more in it: that of the reference, or any with an interval of 0.1 ms to kMaxImageInterval.
+/// 4 milliseconds may look like 4 seconds otherwise.
 TimeUnit GuessTimeUnit(const std::vector<double>& stamps,
                        const std::optional<TimeRange>& reference = std::nullopt,
                        double max_interval = kMaxPoseInterval);

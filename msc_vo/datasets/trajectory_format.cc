@@ -98,9 +98,11 @@ std::vector<double> StampsOf(const std::vector<TimedPose>& poses) {
   return stamps;
 }
 
-// Converts the time stamps from `unit` to seconds.
-void ToSeconds(const std::string& path, TimeUnit unit, TrajectoryFile* file,
+// Converts the time stamps to seconds. `other`: the range of the other trajectory.
+void ToSeconds(const std::string& path, const std::optional<TimeRange>& other, TrajectoryFile* file,
                std::vector<std::string>* warnings) {
+  const TimeUnit unit = GuessTimeUnit(StampsOf(file->poses), other);
+  file->unit = unit;
   if (unit == TimeUnit::kSeconds) return;
   warnings->push_back(path + ": the time stamps are " + ToString(unit) +
                       " and are converted to seconds");
@@ -152,18 +154,21 @@ TrajectoryFile ReadTrajectoryFile(const std::string& path, std::optional<Traject
 void ConvertToSeconds(const std::string& reference_path, const std::string& estimate_path,
                       TrajectoryFile* reference, TrajectoryFile* estimate,
                       std::vector<std::string>* warnings) {
-  TimeUnit unit = reference->unit.value_or(TimeUnit::kSeconds);
-  if (reference->has_stamps && !reference->unit) {
-    unit = GuessTimeUnit(StampsOf(reference->poses));
-    ToSeconds(reference_path, unit, reference, warnings);
-  }
-  if (!estimate->has_stamps || estimate->unit) return;
-  const std::vector<double> stamps = StampsOf(estimate->poses);
-  const bool is_known = reference->has_stamps && !reference->poses.empty();
-  ToSeconds(estimate_path,
-            is_known ? GuessTimeUnit(stamps, RangeOf(StampsOf(reference->poses), unit))
-                     : GuessTimeUnit(stamps),
-            estimate, warnings);
+  const auto is_unknown = [](const TrajectoryFile& file) {
+    return file.has_stamps && !file.unit && !file.poses.empty();
+  };
+  // The range of the stamps of a file, without knowledge of the other one.
+  const auto range_of = [&](const TrajectoryFile& file) -> std::optional<TimeRange> {
+    if (!file.has_stamps || file.poses.empty()) return std::nullopt;
+    std::vector<double> stamps = StampsOf(file.poses);
+    const TimeUnit unit = file.unit.value_or(GuessTimeUnit(stamps));
+    if (!file.unit) {
+      for (double& stamp : stamps) stamp /= UnitsPerSecond(unit);
+    }
+    return RangeOf(stamps, unit);
+  };
+  if (is_unknown(*reference)) ToSeconds(reference_path, range_of(*estimate), reference, warnings);
+  if (is_unknown(*estimate)) ToSeconds(estimate_path, range_of(*reference), estimate, warnings);
 }
 
 void ShareStamps(const std::string& reference_path, const std::string& estimate_path,

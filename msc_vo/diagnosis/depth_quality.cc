@@ -3,7 +3,9 @@
 
 #include "msc_vo/diagnosis/depth_quality.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 
 #include "msc_vo/diagnosis/quantile.h"
@@ -19,19 +21,26 @@ constexpr double kMinMedian = 0.6, kMaxMedian = 8.0;
 // Raw units per metre of common sources: millimetres, TUM, TUM freiburg2, Replica, 1/256 m, 0.1 mm,
 // ScanNet++ and others in 1/4000 m.
 constexpr double kScales[] = {1000.0, 5000.0, 5208.0, 6553.5, 256.0, 10000.0, 4000.0, 100.0};
+// The same of floating-point numbers: from millimetres to 100 m.
+constexpr double kFloatScales[] = {1000.0, 100.0, 10.0, 1.0, 0.1, 0.01};
 constexpr double kMinValid = 0.2;
 
 bool IsUsual(double median) { return median >= kMinMedian && median <= kMaxMedian; }
 
 // The scales that would give a usual median depth, with the median that each gives.
-std::string LikelyScales(double median, double scale) {
+std::string LikelyScales(double median, const DepthUnits& units) {
   std::string text;
-  for (const double other : kScales) {
-    const double other_median = median * scale / other;
-    if (std::abs(other / scale - 1.0) < 0.1 || !IsUsual(other_median) || other_median > 5.0) {
+  const std::vector<double> scales =
+      units.are_floats ? std::vector<double>(std::begin(kFloatScales), std::end(kFloatScales))
+                       : std::vector<double>(std::begin(kScales), std::end(kScales));
+  for (const double other : scales) {
+    const double other_median = median * units.per_metre / other;
+    if (std::abs(other / units.per_metre - 1.0) < 0.1 || !IsUsual(other_median) ||
+        other_median > 5.0) {
       continue;
     }
-    text += (text.empty() ? "" : ", ") + FormatText("%.1f would give %.2f m", other, other_median);
+    const char* const format = units.are_floats ? "%g would give %.2f m" : "%.1f would give %.2f m";
+    text += (text.empty() ? "" : ", ") + FormatText(format, other, other_median);
   }
   return text;
 }
@@ -46,7 +55,8 @@ void AddByteOrder(double swapped_ratio, Findings* findings) {
             Measurement{swapped_ratio, "ratio"}));
 }
 
-void AddRange(const std::vector<float>& depths, double valid, double scale, Findings* findings) {
+void AddRange(const std::vector<float>& depths, double valid, const DepthUnits& units,
+              Findings* findings) {
   const double median = Median(depths);
   const std::string range =
       FormatText("depth: median %.2f m, 90 %% within %.2f to %.2f m, %.0f %% of the pixels valid",
@@ -56,18 +66,33 @@ void AddRange(const std::vector<float>& depths, double valid, double scale, Find
     findings->push_back(Good("depth.scale", range, measurement));
     return;
   }
-  const std::string likely = LikelyScales(median, scale);
-  const std::string text = FormatText(
-      "a median depth of %.3f m is unusual; depth_scale (%.1f raw units per metre) is probably "
-      "wrong",
-      median, scale);
-  const std::string fix =
-      likely.empty() ? "look up the units of the depth images" : "correct depth_scale: " + likely;
+  const std::string likely = LikelyScales(median, units);
+  const std::string option = units.are_floats ? "camera.float_depth_scale" : "depth_scale";
+  const std::string text =
+      FormatText("a median depth of %.3f m is unusual; ", median) + option +
+      FormatText(units.are_floats ? " (%g units per metre)" : " (%.1f raw units per metre)",
+                 units.per_metre) +
+      " is probably wrong";
+  const std::string fix = likely.empty() ? "look up the units of the depth images"
+                                         : "correct " + option + ": " + likely;
   findings->push_back(IsUsableDepth(median) ? Warning("depth.scale", text, fix, measurement)
                                             : Error("depth.scale", text, fix, measurement));
 }
 
 }  // namespace
+
+DepthUnits FindDepthUnits(const RgbdDecoder& decoder) {
+  constexpr int kMaxTries = 10;
+  const DepthUnits raw{decoder.calibration().depth_scale, false};
+  for (int i = 0; i < std::min(kMaxTries, decoder.size()); ++i) {
+    try {
+      if (decoder.DecodeRawDepth(i).type() != CV_32FC1) return raw;
+      return {decoder.index().float_depth_scale, true};
+    } catch (const UnreadableImage&) {  // reported by the check of the images
+    }
+  }
+  return raw;
+}
 
 DepthQuality MeasureDepth(const cv::Mat& depth) {
   DepthQuality quality;
@@ -85,7 +110,7 @@ DepthQuality MeasureDepth(const cv::Mat& depth) {
 }
 
 void AddDepthFindings(const std::vector<DepthQuality>& images, const ByteOrder& byte_order,
-                      double depth_scale, Findings* findings) {
+                      const DepthUnits& units, Findings* findings) {
   if (images.empty()) return;
   std::vector<float> depths;
   double valid = 0.0;
@@ -102,7 +127,7 @@ void AddDepthFindings(const std::vector<DepthQuality>& images, const ByteOrder& 
     AddByteOrder(byte_order.SwappedRatio(), findings);
     return;  // nothing else that the values say is true
   }
-  AddRange(depths, valid, depth_scale, findings);
+  AddRange(depths, valid, units, findings);
   if (valid < kMinValid) {
     findings->push_back(Warning("depth.valid",
                                 FormatText("most of the image has no depth: %.0f %% of the pixels "

@@ -7,6 +7,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "msc_vo/datasets/rgbd_decoder.h"
 #include "msc_vo/diagnosis/finding.h"
 #include "msc_vo/sensor/byte_order.h"
 
@@ -18,11 +19,20 @@ struct DepthQuality {
   std::vector<float> sample;  ///< metres, valid depths of a regular subset of the pixels
 };
 
+/// Units of the depth values of a sequence.
+struct DepthUnits {
+  double per_metre = 0.0;
+  bool are_floats = false;  ///< floating-point numbers, whose units have an option of their own
+};
+
+/// Returns the units of the first depth image that can be decoded.
+DepthUnits FindDepthUnits(const RgbdDecoder& decoder);
+
 /// Measures a depth image in metres (CV_32FC1, 0: none).
 DepthQuality MeasureDepth(const cv::Mat& depth);
 
-/// Range of the depths (a wrong depth scale shows here), ratio of valid pixels and byte order.
+/// Range of the depths (wrong units show here), ratio of valid pixels and byte order.
 void AddDepthFindings(const std::vector<DepthQuality>& images, const ByteOrder& byte_order,
-                      double depth_scale, Findings* findings);
+                      const DepthUnits& units, Findings* findings);
 
 }  // namespace msc_vo

@@ -47,6 +47,7 @@ constexpr char kScaleCheck[] = "depth.scale";
 struct SampleMeasurements {
   std::vector<ImageExposure> exposures;
   std::vector<DepthQuality> depths;
+  DepthUnits units;
   ByteOrder byte_order;
   std::vector<EdgeAlignment> alignments;
   std::vector<Texture> textures;
@@ -64,6 +65,7 @@ SampleMeasurements MeasureSample(const RgbdDecoder& decoder, int count,
                                  const std::optional<FrameBuilderOptions>& features,
                                  DepthCurveTest* curve) {
   SampleMeasurements sample;
+  sample.units = FindDepthUnits(decoder);
   const Calibration& calibration = decoder.calibration();
   std::optional<FrameBuilder> builder;
   if (features) builder.emplace(*features, calibration.camera, calibration.distortion);
@@ -126,7 +128,7 @@ void AddSampleFindings(const SampleMeasurements& sample, const DepthCurveTest& c
                        const Calibration& calibration, Findings* findings) {
   AddExposureFindings(sample.exposures, calibration.camera.width, findings);
   Findings depths;
-  AddDepthFindings(sample.depths, sample.byte_order, calibration.depth_scale, &depths);
+  AddDepthFindings(sample.depths, sample.byte_order, sample.units, &depths);
   // Swapped bytes leave no surfaces, and what is not depth has no scale.
   if (!HasError(depths, kByteOrderCheck)) AddDepthCurveFindings(curve, &depths);
   const bool is_depth = !HasError(depths, DepthCurveTest::kCheck);

@@ -4,6 +4,7 @@
 #include "msc_vo/diagnosis/stamp_findings.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "msc_vo/diagnosis/quantile.h"
 #include "msc_vo/evaluation/association.h"
@@ -119,11 +120,12 @@ void AddGroundTruthStampFindings(const SequenceIndex& index, Findings* findings)
     findings->push_back(Good("ground_truth.overlap", text, Measurement{ratio, "ratio"}));
     return;
   }
+  const double start = truth_stamps.front() - image_stamps.front();
   findings->push_back(
       Warning("ground_truth.overlap",
-              text + FormatText("; its stamps begin %.3f s after those of the images: is it on "
+              text + FormatText("; its stamps begin %.3f s %s those of the images: is it on "
                                 "another clock, in another unit, or of another sequence?",
-                                truth_stamps.front() - image_stamps.front()),
+                                std::abs(start), start < 0.0 ? "before" : "after"),
               "give the ground truth of these images, in seconds of their clock",
               Measurement{ratio, "ratio"}));
 }

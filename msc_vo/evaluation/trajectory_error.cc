@@ -210,31 +210,46 @@ std::string DescribeProblem(const std::vector<PosePair>& pairs, const Trajectory
 }
 
 // What makes errors of the pairs doubtful.
-std::vector<std::string> DescribeDoubts(const std::vector<PosePair>& pairs, Alignment alignment) {
+std::vector<std::string> DescribeDoubts(const std::vector<PosePair>& pairs,
+                                        const EvaluationOptions& options) {
   const std::vector<Rigid3> reference = PosesOf(pairs, &PosePair::reference);
   const std::vector<Rigid3> estimate = PosesOf(pairs, &PosePair::estimate);
-  const bool with_scale = alignment == Alignment::kSim3;
+  const bool with_scale = options.alignment == Alignment::kSim3;
   std::vector<std::string> doubts;
-  if (with_scale || alignment == Alignment::kSe3) {
+  if (with_scale || options.alignment == Alignment::kSe3) {
     doubts.push_back(DescribeUndetermined(reference, estimate, with_scale));
   }
   if (!with_scale) doubts.push_back(DescribeScaleContradiction(reference, estimate));
-  doubts.push_back(DescribeQuaternionOrder(reference, estimate));
+  doubts.push_back(DescribeOrientationContradiction(reference, estimate, options.estimate_is_own));
   doubts.erase(std::remove(doubts.begin(), doubts.end(), ""), doubts.end());
   return doubts;
+}
+
+// Number of poses between the first and the last stamp of others.
+int NumInRange(const std::vector<TimedPose>& poses, const std::vector<TimedPose>& others,
+               double max_time_difference) {
+  return static_cast<int>(std::count_if(poses.begin(), poses.end(), [&](const TimedPose& pose) {
+    return pose.timestamp >= others.front().timestamp - max_time_difference &&
+           pose.timestamp <= others.back().timestamp + max_time_difference;
+  }));
 }
 
 void MeasureCoverage(const std::vector<TimedPose>& reference,
                      const std::vector<TimedPose>& estimate, double max_time_difference,
                      TrajectoryError* error) {
-  for (const TimedPose& pose : reference) {
-    error->num_reference_in_range +=
-        pose.timestamp >= estimate.front().timestamp - max_time_difference &&
-        pose.timestamp <= estimate.back().timestamp + max_time_difference;
-  }
+  error->num_reference_in_range = NumInRange(reference, estimate, max_time_difference);
   error->coverage = static_cast<double>(error->num_matched) / error->num_reference;
   error->coverage_in_range =
       static_cast<double>(error->num_matched) / std::max(error->num_reference_in_range, 1);
+  // Poses of both at the times of the other should match, at least those of the sparser one.
+  const int num_estimate = NumInRange(estimate, reference, max_time_difference);
+  const int num_expected = std::min(num_estimate, error->num_reference_in_range);
+  if (2 * error->num_matched >= num_expected) return;
+  error->warnings.push_back(
+      FormatText("only %d of %d estimated poses have a reference pose within %g s: are the time "
+                 "stamps of both "
+                 "in seconds of the same clock?",
+                 error->num_matched, num_estimate, max_time_difference));
 }
 
 }  // namespace
@@ -296,7 +311,7 @@ TrajectoryError EvaluateTrajectory(const std::vector<TimedPose>& reference,
   error.message = DescribeProblem(pairs, error, options);
   error.usable = error.message.empty();
   if (!error.usable) return error;
-  error.warnings = DescribeDoubts(pairs, options.alignment);
+  error.warnings = DescribeDoubts(pairs, options);
   MeasureCoverage(truth, compared, options.max_time_difference, &error);
 
   error.scale = ScaleOf(pairs, options.alignment);

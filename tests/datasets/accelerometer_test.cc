@@ -67,6 +67,14 @@ TEST_F(AccelerometerTest, RejectsReadingsInOtherUnits) {
   EXPECT_EQ(ErrorOf("100 0 9.8 0\n101 0 9.8 0\n101.5 40 0 0\n"), "");
 }
 
+// At 250 Hz, milliseconds look like seconds.
+TEST_F(AccelerometerTest, ConvertsFastReadings) {
+  std::string text;
+  for (int i = 0; i <= 500; ++i) text += std::to_string(100000 + 4 * i) + " 0 9.8 0\n";
+  const std::vector<TimedAcceleration> readings = Read(text);
+  EXPECT_NEAR(readings.back().timestamp, 102.0, 1e-9);
+}
+
 TEST_F(AccelerometerTest, RejectsReadingsAtAnotherTime) {
   EXPECT_THAT(ErrorOf("200 0 9.8 0\n201 0 9.8 0\n"),
               Names("accelerometer.txt", "200.000", "overlap"));

@@ -32,5 +32,19 @@ TEST(GuessCameraPreset, RecognisesTumFolders) {
   EXPECT_EQ(GuessCameraPreset("/data/fr10_lab"), "");
 }
 
+TEST(GuessCameraPreset, RecognisesTheFolderBehindADot) {
+  EXPECT_EQ(GuessCameraPreset("/data/fr1_desk/."), "tum-fr1");
+  EXPECT_EQ(GuessCameraPreset("/data/fr1_desk/"), "tum-fr1");
+  EXPECT_EQ(GuessCameraPreset("/data/fr1_desk/rgb/.."), "tum-fr1");
+  const std::filesystem::path before = std::filesystem::current_path();
+  const std::filesystem::path folder =
+      std::filesystem::path(testing::TempDir()) / "msc_vo_rgbd_dataset_freiburg1_rpy";
+  std::filesystem::create_directories(folder);
+  std::filesystem::current_path(folder);
+  EXPECT_EQ(GuessCameraPreset("."), "tum-fr1");
+  std::filesystem::current_path(before);
+  std::filesystem::remove_all(folder);
+}
+
 }  // namespace
 }  // namespace msc_vo

@@ -23,5 +23,15 @@ TEST_F(ImageFolderTest, ListsOnlyImagesInNaturalOrder) {
   EXPECT_TRUE(ListImages(Path("nowhere")).empty());
 }
 
+TEST_F(ImageFolderTest, ListsAllFormatsThatCanBeRead) {
+  std::vector<std::string> paths;
+  for (const char* ending :
+       {"bmp", "exr", "jpeg", "jpg", "pgm", "png", "pnm", "ppm", "tif", "tiff", "webp"}) {
+    paths.push_back(Path(std::string("1.") + ending));
+    WriteText(std::string("1.") + ending, "");
+  }
+  EXPECT_THAT(ListImages(Folder()), testing::UnorderedElementsAreArray(paths));
+}
+
 }  // namespace
 }  // namespace msc_vo

@@ -81,6 +81,15 @@ TEST(ImageSizeFit, TouchesNothingElse) {
   EXPECT_EQ(calibration.camera.fx, 500.0);
 }
 
+TEST(ImageSizeFit, ComparesShapes) {
+  EXPECT_TRUE(HaveSameShape({1920, 1440}, {256, 192}));
+  EXPECT_FALSE(HaveSameShape({1296, 968}, {640, 480}));
+  EXPECT_TRUE(HaveSimilarShape({1296, 968}, {640, 480}));
+  EXPECT_TRUE(HaveSimilarShape({640, 480}, {1296, 968}));
+  EXPECT_FALSE(HaveSimilarShape({1280, 720}, {640, 480}));
+  EXPECT_FALSE(HaveSimilarShape({1280, 960}, {640, 470}));
+}
+
 class ImageSizeFitTest : public TemporaryFolder {};
 
 // A surface at 1 m, and one at 2 m in the right half: no pixel has a depth between them.

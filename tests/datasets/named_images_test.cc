@@ -18,12 +18,12 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 
 constexpr int kNumImages = 40;
-constexpr int64_t kStart = 1604645033;   // seconds since 1970: 2020-11-06 06:43:53
-constexpr int64_t kInterval = 33366700;  // nanoseconds
+constexpr int64_t kStart = 1604645033;  // seconds since 1970: 2020-11-06 06:43:53
+constexpr int64_t kNanosecondsPerImage = 33366700;
 constexpr int64_t kSecond = 1000000000;
 
 // Nanoseconds of image i.
-int64_t Nanoseconds(int i) { return 123456789 + i * kInterval; }
+int64_t Nanoseconds(int i) { return 123456789 + i * kNanosecondsPerImage; }
 long long Seconds(int i) { return kStart + Nanoseconds(i) / kSecond; }
 long long Fraction(int i, int64_t unit) { return Nanoseconds(i) % kSecond / unit; }
 

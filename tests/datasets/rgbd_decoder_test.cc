@@ -80,6 +80,19 @@ TEST_F(RgbdDecoderTest, AcceptsGreyAndTransparentImages) {
   EXPECT_EQ(Decoder(1).Decode(0).gray.at<uint8_t>(2, 2), 77);
 }
 
+TEST_F(RgbdDecoderTest, ReadsWebpAndPnm) {
+  WriteDepth("0d.png");
+  const cv::Mat color(6, 8, CV_8UC3, cv::Scalar(30, 200, 120));
+  for (const std::string ending : {".webp", ".ppm"}) {
+    cv::imwrite(Path("0" + ending), color);
+    std::filesystem::rename(Path("0" + ending), Path("0.png"));
+    EXPECT_NEAR(Decoder(1).Decode(0).gray.at<uint8_t>(3, 4), 157.0, 3.0) << ending;
+  }
+  WriteDepth("1.pgm", 2500);
+  std::filesystem::rename(Path("1.pgm"), Path("0d.png"));
+  EXPECT_FLOAT_EQ(Decoder(1).Decode(0).depth.at<float>(3, 4), 2.5f);
+}
+
 TEST_F(RgbdDecoderTest, ConvertsColourJpegToGrey) {
   WriteDepth("0d.png");
   const cv::Mat color(6, 8, CV_8UC3, cv::Scalar(30, 200, 120));
@@ -95,6 +108,20 @@ TEST_F(RgbdDecoderTest, ScalesColourDownIfLayoutRequiresIt) {
   WriteDepth("0d.png");
   EXPECT_EQ(Decoder(1, true).Decode(0).gray.size(), cv::Size(8, 6));
   EXPECT_THAT(ErrorOf(Decoder(1, false)), Names("16x12", "8x6", "register", "camera.txt"));
+}
+
+// ScanNet has colour of 1296x968 with depth of 640x480.
+TEST_F(RgbdDecoderTest, DoesNotSqueezeColourOfAnotherShape) {
+  WriteDepth("0d.png");
+  WriteColor("0.png", 16, 9);
+  EXPECT_THAT(ErrorOf(Decoder(1, true)), Names("16x9", "8x6", "register", "camera.txt"));
+  WriteColor("0.png", 1296, 968);
+  WriteDepth("0d.png", 1000, 640, 480);
+  SequenceIndex index = Decoder(1, true).index();
+  Calibration calibration;
+  calibration.camera = {600.0, 600.0, 319.5, 239.5, 640, 480};
+  calibration.depth_scale = 1000.0;
+  EXPECT_EQ(RgbdDecoder(index, calibration).Decode(0).gray.size(), cv::Size(640, 480));
 }
 
 TEST_F(RgbdDecoderTest, RegistersImagesOfDepthCamera) {
@@ -127,6 +154,9 @@ TEST_F(RgbdDecoderTest, ErrorsNameFileLineAndFix) {
   EXPECT_THAT(ErrorOf(Decoder(1)), Names("0d.png", "4x3", "8x6", "camera.txt"));
   WriteImage("0d.png", CV_8UC1, 100);
   EXPECT_THAT(ErrorOf(Decoder(1)), Names("0d.png", "1", "8 bits", "16 bits"));
+  WriteImage("0d.tiff", CV_16SC1, 100);
+  std::filesystem::rename(Path("0d.tiff"), Path("0d.png"));
+  EXPECT_THAT(ErrorOf(Decoder(1)), Names("0d.png", "signed", "unsigned", "16 bits"));
   WriteColor("0d.png");
   EXPECT_THAT(ErrorOf(Decoder(1)), Names("0d.png", "3", "8 bits"));
   WriteDepth("0.png");

@@ -5,9 +5,15 @@
 
 #include "msc_vo/datasets/sequence.h"
 
+#include <cmath>
+#include <utility>
+
 #include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
+
+#include "msc_vo/datasets/rgbd_decoder.h"
+#include "msc_vo/datasets/sequence_calibration.h"
 
 namespace msc_vo {
 namespace {
@@ -95,6 +101,66 @@ TEST_F(SequenceTest, ReadsReplica) {
   EXPECT_EQ(index.preset, "replica");
   WriteText("traj.txt", "1 0 0\n");
   EXPECT_THAT(ErrorOf(), Names("traj.txt:1", "16"));
+}
+
+// Rows are poses of frames by number, if the numbers allow that.
+TEST_F(SequenceTest, AssignsPosesOfReplicaByNumberOrOrder) {
+  const auto read = [&](const std::vector<int>& numbers, int num_rows, int without_depth = -1) {
+    std::filesystem::remove_all(Path("results"));
+    for (const int number : numbers) {
+      WriteColor("results/frame" + std::to_string(number) + ".jpg");
+      if (number != without_depth) {
+        WriteDepth("results/depth" + std::to_string(number) + ".png");
+      }
+    }
+    std::string rows;
+    for (int i = 0; i < num_rows; ++i) {
+      rows += "1 0 0 " + std::to_string(i) + " 0 1 0 0 0 0 1 0 0 0 0 1\n";
+    }
+    WriteText("traj.txt", rows);
+    return OpenSequence(Folder());
+  };
+  // Number of the frame and row of each pose.
+  const auto poses = [](const SequenceIndex& index) {
+    std::vector<std::pair<int, int>> pairs;
+    for (const TimedPose& pose : index.ground_truth) {
+      pairs.emplace_back(std::lround(30.0 * pose.timestamp), pose.world_from_cam.translation().x());
+    }
+    return pairs;
+  };
+  const SequenceIndex subset = read({3, 6, 9}, 10);  // by number
+  EXPECT_EQ(poses(subset).size(), 10u);
+  EXPECT_EQ(poses(subset).back(), std::pair(9, 9));
+  EXPECT_THAT(subset.warnings, testing::IsEmpty());
+  const SequenceIndex from_one = read({1, 2, 3}, 3);
+  EXPECT_THAT(poses(from_one),
+              testing::ElementsAre(testing::Pair(1, 0), testing::Pair(2, 1), testing::Pair(3, 2)));
+  EXPECT_THAT(from_one.warnings, testing::ElementsAre(Names("traj.txt", "3", "1", "order")));
+  EXPECT_THAT(poses(read({0, 5, 10}, 3, 5)),
+              testing::ElementsAre(testing::Pair(0, 0), testing::Pair(10, 2)));
+  const SequenceIndex shorter = read({0, 1, 2, 3}, 3);
+  EXPECT_THAT(poses(shorter),
+              testing::ElementsAre(testing::Pair(0, 0), testing::Pair(1, 1), testing::Pair(2, 2)));
+  EXPECT_THAT(shorter.warnings, testing::ElementsAre(Names("traj.txt", "3", "4")));
+  const SequenceIndex unknown = read({1, 2, 3, 4}, 3);
+  EXPECT_THAT(poses(unknown), testing::IsEmpty());
+  EXPECT_THAT(unknown.warnings, testing::ElementsAre(Names("traj.txt", "3", "1", "4", "left")));
+}
+
+// Depth of another shape is not registered to colour.
+TEST_F(SequenceTest, KeepsTheColourCameraOfScanNetWithDepthOfAnotherShape) {
+  WriteColor("color/0.jpg", 16, 9);
+  WriteDepth("depth/0.png");
+  WriteText("intrinsic/intrinsic_color.txt", "20 0 7.5 0\n0 22 4 0\n0 0 1 0\n0 0 0 1\n");
+  SequenceIndex index = OpenSequence(Folder());
+  EXPECT_EQ(index.format, "scannet");
+  EXPECT_FALSE(index.scale_color);
+  const Calibration calibration = ResolveCalibration({}, "", &index);
+  EXPECT_EQ(calibration.camera.fy, 22.0);
+  EXPECT_EQ(calibration.camera.height, 9);
+  const RgbdDecoder decoder(index, calibration);
+  EXPECT_THAT(MessageOf([&] { decoder.Decode(0); }),
+              Names("depth/0.png", "8x6", "16x9", "register", "camera.txt"));
 }
 
 TEST_F(SequenceTest, ReadsScanNetAndScalesItsCameraToDepth) {

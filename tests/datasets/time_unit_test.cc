@@ -3,6 +3,8 @@
 
 #include "msc_vo/datasets/time_unit.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace msc_vo {
@@ -43,6 +45,23 @@ TEST(GuessTimeUnit, IntervalsOfImagesDistinguishUptimeFromDates) {
     EXPECT_EQ(GuessTimeUnit(Stamps(start, 2), std::nullopt, kMaxImageInterval), TimeUnit::kSeconds);
     EXPECT_EQ(GuessTimeUnit(Stamps(start, 33)), TimeUnit::kSeconds);  // sparse poses
   }
+}
+
+// 4 ms look like 4 s, 4000 us like 4 s in milliseconds, 4e6 ns like 4 s in microseconds.
+TEST(GuessTimeUnit, FastStampsHaveTheUnitInWhichTheyCoverTheReference) {
+  std::vector<double> seconds;  // at 240 Hz
+  for (int i = 0; i < 4800; ++i) seconds.push_back(i / 240.0);
+  const TimeRange images{0.0, 20.0, TimeUnit::kSeconds};
+  for (const TimeUnit unit : {TimeUnit::kSeconds, TimeUnit::kMilliseconds, TimeUnit::kMicroseconds,
+                              TimeUnit::kNanoseconds}) {
+    std::vector<double> stamps;
+    for (const double time : seconds) stamps.push_back(std::round(UnitsPerSecond(unit) * time));
+    if (unit == TimeUnit::kSeconds) stamps = seconds;
+    EXPECT_EQ(GuessTimeUnit(stamps, images), unit);
+  }
+  // Poses at 100 Hz of a longer time than that of the images are not 100,000 poses per second.
+  EXPECT_EQ(GuessTimeUnit(Stamps(0, 0.01), TimeRange{0.0, 1e-4, TimeUnit::kSeconds}),
+            TimeUnit::kSeconds);
 }
 
 TEST(GuessTimeUnit, PrefersUnitOfReference) {

@@ -11,6 +11,7 @@ namespace msc_vo {
 namespace {
 
 using testing::AllOf;
+using testing::ElementsAre;
 using testing::Not;
 
 constexpr char kEurocHeader[] =
@@ -104,6 +105,24 @@ TEST_F(TrajectoryFormatTest, MagnitudesOfStampsTellEurocWithoutAHeader) {
   EXPECT_EQ(Detect("1403636580.838" + rows), TrajectoryFormat::kTum);
   EXPECT_EQ(Detect("1.5" + rows), TrajectoryFormat::kTum);
   EXPECT_EQ(Detect("5000000000" + rows + "5033000000" + rows), TrajectoryFormat::kEuroc);
+  EXPECT_EQ(Detect("5000000000" + rows + "5004000000" + rows), TrajectoryFormat::kEuroc);
+}
+
+// At 250 Hz, milliseconds look like seconds, and the other trajectory tells.
+TEST_F(TrajectoryFormatTest, UnitsOfTwoTrajectoriesAreJudgedTogether) {
+  const std::string pose = " 1 2 3 0 0 0 1\n";
+  std::string fast, slow;
+  for (int i = 0; i < 500; ++i) fast += std::to_string(4 * i) + pose;
+  for (int i = 0; i < 60; ++i) slow += std::to_string(i / 30.0) + pose;
+  for (const bool fast_is_reference : {true, false}) {
+    TrajectoryFile reference = Read(fast_is_reference ? fast : slow);
+    TrajectoryFile estimate = Read(fast_is_reference ? slow : fast);
+    std::vector<std::string> warnings;
+    ConvertToSeconds("a", "b", &reference, &estimate, &warnings);
+    EXPECT_NEAR(reference.poses.back().timestamp, 2.0, 0.05);
+    EXPECT_NEAR(estimate.poses.back().timestamp, 2.0, 0.05);
+    EXPECT_THAT(warnings, ElementsAre(Names(fast_is_reference ? "a" : "b", "milliseconds")));
+  }
 }
 
 TEST_F(TrajectoryFormatTest, ReadsTablesWithoutTime) {

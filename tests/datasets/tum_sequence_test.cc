@@ -122,11 +122,45 @@ TEST_F(TumSequenceTest, ReadsAssociationsInEitherOrder) {
   EXPECT_EQ(index.entries[1].origin, Path("associations.txt") + ":2");
 }
 
+// A row whose stamps agree does so by chance.
 TEST_F(TumSequenceTest, StampsOfDifferentClocksGiveNoDelay) {
-  WriteText("associations.txt", "1.5 rgb/1.png 9.01 depth/1.png\n2.5 rgb/2.png 2.5 depth/2.png\n");
-  for (const SequenceEntry& entry : OpenSequence(Folder()).entries) {
-    EXPECT_EQ(entry.depth_delay, 0.0);
+  for (const double last : {9.9, 2.9}) {
+    std::string rows;
+    for (int i = 0; i < 9; ++i) {
+      const double depth = i < 8 ? 9.01 + 0.1 * i : last;
+      rows += FormatText("%.2f rgb/%d %.2f depth/%d\n", 2.1 + 0.1 * i, i, depth, i);
+    }
+    WriteText("associations.txt", rows);
+    const SequenceIndex index = OpenSequence(Folder());
+    EXPECT_EQ(index.entries.size(), 9u);
+    for (const SequenceEntry& entry : index.entries) EXPECT_EQ(entry.depth_delay, 0.0);
+    const auto warning = testing::Contains(Names("associations.txt:1", "8", "9", "6.910 s"));
+    if (last == 2.9) {
+      EXPECT_THAT(index.warnings, warning);
+    } else {
+      EXPECT_THAT(index.warnings, testing::Not(warning));
+    }
   }
+}
+
+// Rows `begin` to `end` - 1 name the depth image four frames later.
+TEST_F(TumSequenceTest, LeavesOutAssociationsOfDistantStamps) {
+  const auto write = [&](int begin, int end) {
+    std::string rows;
+    for (int i = 0; i < 30; ++i) {
+      const int j = i >= begin && i < end ? i + 4 : i;
+      rows += FormatText("%.6f rgb/%d %.6f depth/%d\n", i / 30.0, i, j / 30.0 + 0.004, j);
+    }
+    WriteText("associations.txt", rows);
+  };
+  write(8, 16);
+  const SequenceIndex index = OpenSequence(Folder());
+  EXPECT_EQ(index.entries.size(), 22u);
+  for (const SequenceEntry& entry : index.entries) EXPECT_NEAR(entry.depth_delay, 0.004, 2e-6);
+  EXPECT_THAT(index.warnings,
+              ElementsAre(Names("associations.txt:9", "0.137 s", "8", "30", "20 ms")));
+  write(8, 26);
+  EXPECT_THAT(ErrorOf(), Names("associations.txt:9", "only", "12", "18", "30", "20 ms"));
 }
 
 TEST_F(TumSequenceTest, DistinguishesColumnsByBitDepth) {
@@ -134,6 +168,28 @@ TEST_F(TumSequenceTest, DistinguishesColumnsByBitDepth) {
   WriteDepth("b/1.png");
   WriteText("associations.txt", "1.5 b/1.png 1.5 a/1.png\n");
   EXPECT_EQ(OpenSequence(Folder()).entries[0].depth_path, Path("b/1.png"));
+}
+
+// Colour that was aligned to depth may say so in its name.
+TEST_F(TumSequenceTest, DistinguishesColumnsByPixelsRatherThanNames) {
+  WriteColor("aligned_to_depth/2.png");
+  WriteDepth("z16/2.png");
+  const std::string first = "1.0 aligned_to_depth/1.png 1.0 z16/1.png\n";  // missing
+  WriteText("associations.txt", first + "2.5 aligned_to_depth/2.png 2.5 z16/2.png\n");
+  EXPECT_EQ(OpenSequence(Folder()).entries[1].depth_path, Path("z16/2.png"));
+  WriteText("associations.txt", "2.5 z16/2.png 2.5 aligned_to_depth/2.png\n");
+  EXPECT_EQ(OpenSequence(Folder()).entries[0].depth_path, Path("z16/2.png"));
+  WriteText("associations.txt", "1.5 a/1.png 1.5 z16/2.png\n");  // one is missing
+  EXPECT_EQ(OpenSequence(Folder()).entries[0].depth_path, Path("z16/2.png"));
+  WriteText("associations.txt", "1.5 a/1.png 1.5 aligned_to_depth/2.png\n");
+  EXPECT_EQ(OpenSequence(Folder()).entries[0].depth_path, Path("aligned_to_depth/2.png"));
+}
+
+TEST_F(TumSequenceTest, RecognisesIclNuimByPixelsRatherThanNames) {
+  WriteColor("depth_view/0.png");
+  WriteDepth("z/0.png");
+  WriteText("associations.txt", "0 depth_view/0.png 0 z/0.png\n1 depth_view/1.png 1 z/1.png\n");
+  EXPECT_EQ(OpenSequence(Folder()).format, "tum");
 }
 
 TEST_F(TumSequenceTest, IclNuimStampsAreFrameNumbers) {
@@ -234,6 +290,25 @@ TEST_F(TumSequenceTest, SortsAndRemovesRepeatedStamps) {
   EXPECT_THAT(Stamps(index), ElementsAre(1.5, 2.5));
   EXPECT_EQ(index.entries[0].color_path, Path("rgb/1"));
   EXPECT_EQ(index.warnings.size(), 2u);
+}
+
+// Sorting would interleave two passages.
+TEST_F(TumSequenceTest, RefusesAClockThatWasSetBack) {
+  std::string color, depth, pairs;
+  for (int i = 0; i < 30; ++i) {
+    const std::string stamp = FormatText("%.6f", 100.0 + i / 30.0 - (i < 20 ? 0.0 : 0.217));
+    color += stamp + FormatText(" rgb/%d\n", i);
+    depth += stamp + FormatText(" depth/%d\n", i);
+    pairs += stamp + FormatText(" rgb/%d ", i) + stamp + FormatText(" depth/%d\n", i);
+  }
+  WriteText("lists/rgb.txt", color);
+  WriteText("lists/depth.txt", depth);
+  WriteText("pairs/associations.txt", pairs);
+  for (const auto& [folder, row] :
+       {std::pair("lists", "rgb.txt:21"), std::pair("pairs", "associations.txt:21")}) {
+    const std::string error = MessageOf([&] { OpenSequence(Path(folder)); });
+    EXPECT_THAT(error, Names(row, "0.217 s", "100.633333", "100.449667", "correct"));
+  }
 }
 
 // An error instead of a run on one image of many, with the reason.

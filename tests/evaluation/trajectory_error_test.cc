@@ -186,6 +186,21 @@ TEST(EvaluateTrajectory, CountsMissingPoses) {
   EXPECT_DOUBLE_EQ(error.coverage_in_range, 1.0);
 }
 
+// A reference whose milliseconds were read as seconds meets an estimate now and then.
+TEST(EvaluateTrajectory, DoubtsFewMatchesAtCommonTimes) {
+  const std::vector<TimedPose> truth = CurvedPath(100, 5.0);
+  EXPECT_THAT(EvaluateTrajectory(truth, truth).warnings, testing::IsEmpty());
+  std::vector<TimedPose> sparse;
+  for (size_t i = 0; i < truth.size(); i += 10) sparse.push_back(truth[i]);
+  EXPECT_THAT(EvaluateTrajectory(truth, sparse).warnings, testing::IsEmpty());
+  EXPECT_THAT(EvaluateTrajectory(sparse, truth).warnings, testing::IsEmpty());
+  std::vector<TimedPose> off = truth;
+  for (size_t i = 40; i < off.size(); ++i) off[i].timestamp += 0.1;
+  const TrajectoryError error = EvaluateTrajectory(truth, off);
+  ASSERT_TRUE(error.usable);
+  EXPECT_THAT(error.warnings, testing::Contains(Names("only 40 of", "time stamps")));
+}
+
 TEST(EvaluateTrajectory, IsNotUsableWithTooFewMatches) {
   const std::vector<TimedPose> truth = CurvedPath(100, 30.0);
   std::vector<TimedPose> estimate = truth;
