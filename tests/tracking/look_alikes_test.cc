@@ -12,7 +12,7 @@
 namespace msc_vo {
 namespace {
 
-constexpr KeyframeId kPlace = 100;  // where the frame is found
+constexpr KeyframeId kFoundPlace = 100;  // where the frame is found
 
 Rigid3 Shift(double x) { return {Eigen::Quaterniond::Identity(), {x, 0.0, 0.0}}; }
 
@@ -28,7 +28,7 @@ class LookAlikesTest : public ::testing::Test {
     tracked_.cam_from_reference =
         SyntheticFrames::CamFromWorld(1) * SyntheticFrames::CamFromWorld(0).Inverse();
     tracked_.cam_from_world = tracked_.cam_from_reference;
-    inactive_ = MapOfOneKeyframe(world_.MakeFrame(0), Rigid3(), kPlace);
+    inactive_ = MapOfOneKeyframe(world_.MakeFrame(0), Rigid3(), kFoundPlace);
     found_ = FoundAt(0.0);
   }
 
@@ -38,10 +38,10 @@ class LookAlikesTest : public ::testing::Test {
     changed->depth_ranges.cells.assign(DepthRanges::kColumns * DepthRanges::kRows, {0.02f, 0.02f});
     return changed;
   }
-  // The frame at a place that lies `x` metres to the right of kPlace.
+  // The frame at a place that lies `x` metres to the right of kFoundPlace.
   Revisit FoundAt(double x) const {
     Revisit revisit;
-    revisit.reference = kPlace;
+    revisit.reference = kFoundPlace;
     revisit.cam_from_reference = tracked_.cam_from_world * Shift(-x);
     return revisit;
   }

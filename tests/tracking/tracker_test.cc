@@ -275,11 +275,21 @@ std::shared_ptr<const Frame> Thinned(const std::shared_ptr<const Frame>& frame) 
   return thinned;
 }
 
+// The frame with other points in place of three quarters of its own.
+std::shared_ptr<const Frame> WithOthers(const std::shared_ptr<const Frame>& frame) {
+  auto others = std::make_shared<Frame>(*frame);
+  for (size_t i = 0; i < others->points.size(); ++i) {
+    if (i % 4 == 0) continue;
+    for (uint8_t& byte : others->points[i].descriptor) byte = ~byte;
+  }
+  return others;
+}
+
 double TranslationSigma(const TrackedFrame& tracked) {
   return std::sqrt(tracked.pose.covariance.diagonal().tail<3>().maxCoeff());
 }
 
-// What follows a guess continues it.
+// What follows a guess continues it. Keyframes there could join two places in the map.
 TEST_F(TrackerTest, DoesNotTrustPosesThatFollowAWeakOneAfterAGap) {
   Start({});
   const double sigma = TranslationSigma(Track(1));
@@ -297,6 +307,8 @@ TEST_F(TrackerTest, DoesNotTrustPosesThatFollowAWeakOneAfterAGap) {
     const TrackedFrame weak = tracker_.Track(Thinned(world_->MakeFrame(3)), snapshot_);
     EXPECT_EQ(weak.status, TrackingStatus::kWeak);
     EXPECT_EQ(Track(4).status, has_gap ? TrackingStatus::kWeak : TrackingStatus::kTracked);
+    const TrackedFrame elsewhere = tracker_.Track(WithOthers(world_->MakeFrame(5)), snapshot_);
+    EXPECT_EQ(elsewhere.keyframe.is_due(), !has_gap);
   }
 }
 
