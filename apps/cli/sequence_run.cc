@@ -234,11 +234,13 @@ SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configu
   SummarizeRun(callbacks.map, &run);
   if (!context.sequence.ground_truth.empty() && loop.progress().num_images > 0) {
     const std::vector<TimedPose> poses = TrajectoryOf(run.result);
-    context.error = EvaluateTrajectory(context.sequence.ground_truth, poses);
+    EvaluationOptions options;
+    options.estimate_is_own = true;
+    context.error = EvaluateTrajectory(context.sequence.ground_truth, poses, options);
     for (const std::string& warning : context.error->warnings) {
       PrintWarning(TruthName(context.sequence) + ": " + warning);
     }
-    context.segment_errors = EvaluateSegments(context.sequence.ground_truth, poses);
+    context.segment_errors = EvaluateSegments(context.sequence.ground_truth, poses, options);
   }
   WarnAboutUnreadableImages(run);
   return run;

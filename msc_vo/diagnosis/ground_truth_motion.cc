@@ -18,128 +18,14 @@ namespace msc_vo {
 namespace {
 
 constexpr double kMaxGap = 0.3;  // seconds between poses that are interpolated
+// Standard deviations of the hand-eye offset beforehand, metres: unknown, and none.
+constexpr double kOffsetPrior = 0.5, kNoOffset = 1e-3;
+constexpr double kMaxScaleSigma = 0.05;  // relative, with which an estimate decides nothing
+constexpr double kMaxLever = 0.04;       // metres
 
-const Eigen::Vector3d kMirror(-1.0, 1.0, 1.0);
-
-}  // namespace
-
-const char* Describe(PoseConvention convention) {
-  switch (convention) {
-    case PoseConvention::kCameraInWorld:
-      return "poses of the camera in the world";
-    case PoseConvention::kWorldInCamera:
-      return "inverse poses, world in camera";
-    case PoseConvention::kInverseRotation:
-      return "positions of the camera with rotations from world to camera";
-    case PoseConvention::kScalarFirst:
-      return "poses with quaternions in the order w x y z";
-    case PoseConvention::kMirrored:
-      return "poses of a mirrored camera (images mirrored left to right, or a left-handed world)";
-  }
-  return "";
-}
-
-std::optional<Rigid3> InterpolatePose(const std::vector<TimedPose>& poses, double timestamp) {
-  const auto next =
-      std::lower_bound(poses.begin(), poses.end(), timestamp,
-                       [](const TimedPose& pose, double time) { return pose.timestamp < time; });
-  if (next == poses.end()) return std::nullopt;
-  if (next->timestamp == timestamp) return next->world_from_cam;
-  if (next == poses.begin()) return std::nullopt;
-  const TimedPose& before = *(next - 1);
-  const double interval = next->timestamp - before.timestamp;
-  if (interval > kMaxGap) return std::nullopt;
-  const double ratio = (timestamp - before.timestamp) / interval;
-  const Eigen::Quaterniond a(before.world_from_cam.rotation());
-  const Eigen::Quaterniond b(next->world_from_cam.rotation());
-  return Rigid3(a.slerp(ratio, b), (1.0 - ratio) * before.world_from_cam.translation() +
-                                       ratio * next->world_from_cam.translation());
-}
-
-std::vector<TimedPose> ReadAs(PoseConvention convention, std::vector<TimedPose> poses) {
-  for (TimedPose& pose : poses) {
-    Rigid3& world_from_cam = pose.world_from_cam;
-    switch (convention) {
-      case PoseConvention::kWorldInCamera:
-        world_from_cam = world_from_cam.Inverse();
-        break;
-      case PoseConvention::kInverseRotation:
-        world_from_cam =
-            Rigid3(world_from_cam.rotation().conjugate(), world_from_cam.translation());
-        break;
-      case PoseConvention::kScalarFirst: {
-        const Eigen::Vector4d c = world_from_cam.params.head<4>();  // in the order of the file
-        world_from_cam =
-            Rigid3(Eigen::Quaterniond(c(0), c(1), c(2), c(3)), world_from_cam.translation());
-        break;
-      }
-      default:
-        break;
-    }
-  }
-  return poses;
-}
-
-std::vector<MotionComparison> CompareMotions(const MotionTrack& track,
-                                             const std::vector<TimedPose>& truth,
-                                             PoseConvention convention, double offset) {
-  std::vector<MotionComparison> comparisons;
-  for (const MotionPair& pair : track.pairs) {
-    const auto from = InterpolatePose(truth, track.images[pair.from].timestamp + offset);
-    const auto to = InterpolatePose(truth, track.images[pair.to].timestamp + offset);
-    if (!from || !to) continue;
-    const Rigid3 motion = to->Inverse() * *from;
-    const Rigid3 image_motion = track.MotionOf(pair);
-    MotionComparison comparison;
-    comparison.image_rotation = LogSO3(image_motion.rotation());
-    comparison.image_translation = image_motion.translation();
-    comparison.true_rotation = LogSO3(Eigen::Quaterniond(motion.rotation()));
-    comparison.true_translation = motion.translation();
-    if (convention == PoseConvention::kMirrored) {
-      // A mirror reverses rotations about the axes in its plane.
-      comparison.true_rotation = -kMirror.cwiseProduct(comparison.true_rotation);
-      comparison.true_translation = kMirror.cwiseProduct(comparison.true_translation);
-    }
-    comparisons.push_back(comparison);
-  }
-  return comparisons;
-}
-
-double RotationDisagreement(const std::vector<MotionComparison>& comparisons,
-                            const Eigen::Matrix3d& camera_from_body) {
-  std::vector<double> differences, rotations;
-  for (const MotionComparison& c : comparisons) {
-    differences.push_back((c.image_rotation - camera_from_body * c.true_rotation).norm());
-    rotations.push_back(c.image_rotation.norm());
-  }
-  return Median(std::move(differences)) / std::max(1e-6, Median(std::move(rotations)));
-}
-
-Eigen::Matrix3d FitBodyRotation(const std::vector<MotionComparison>& comparisons) {
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  for (int iteration = 0; iteration < 5; ++iteration) {
-    Eigen::Matrix3d covariance = 1e-9 * Eigen::Matrix3d::Identity();
-    std::vector<double> errors;
-    for (const MotionComparison& c : comparisons) {
-      errors.push_back((c.image_rotation - rotation * c.true_rotation).norm());
-    }
-    const double scale = std::max(1e-4, iteration == 0 ? 1e3 : Median(errors));
-    for (size_t i = 0; i < comparisons.size(); ++i) {
-      const double weight = 1.0 / (1.0 + errors[i] * errors[i] / (scale * scale));
-      covariance +=
-          weight * comparisons[i].image_rotation * comparisons[i].true_rotation.transpose();
-    }
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
-                                                Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Eigen::Vector3d signs = Eigen::Vector3d::Ones();
-    signs.z() = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
-    rotation = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
-  }
-  return rotation;
-}
-
-HandEye FitHandEye(const std::vector<MotionComparison>& comparisons,
-                   const Eigen::Matrix3d& camera_from_body, double offset_prior) {
+// The offset is zero with standard deviation `offset_prior` (metres) beforehand.
+HandEye FitWithPrior(const std::vector<MotionComparison>& comparisons,
+                     const Eigen::Matrix3d& camera_from_body, double offset_prior) {
   // (R - I) offset + scale * t_image = t_true, in the camera frame, from M_camera X = X M_body
   // with X = (camera_from_body, offset).
   Eigen::Vector4d solution(0.0, 0.0, 0.0, 1.0);
@@ -187,6 +73,139 @@ HandEye FitHandEye(const std::vector<MotionComparison>& comparisons,
   }
   result.correlation = product / std::sqrt(std::max(1e-12, image * truth));
   return result;
+}
+
+}  // namespace
+
+const char* Describe(PoseConvention convention) {
+  switch (convention) {
+    case PoseConvention::kCameraInWorld:
+      return "poses of the camera in the world";
+    case PoseConvention::kWorldInCamera:
+      return "inverse poses, world in camera";
+    case PoseConvention::kInverseRotation:
+      return "positions of the camera with rotations from world to camera";
+    case PoseConvention::kScalarFirst:
+      return "poses with quaternions in the order w x y z";
+  }
+  return "";
+}
+
+std::optional<Rigid3> InterpolatePose(const std::vector<TimedPose>& poses, double timestamp) {
+  const auto next =
+      std::lower_bound(poses.begin(), poses.end(), timestamp,
+                       [](const TimedPose& pose, double time) { return pose.timestamp < time; });
+  if (next == poses.end()) return std::nullopt;
+  if (next->timestamp == timestamp) return next->world_from_cam;
+  if (next == poses.begin()) return std::nullopt;
+  const TimedPose& before = *(next - 1);
+  const double interval = next->timestamp - before.timestamp;
+  if (interval > kMaxGap) return std::nullopt;
+  const double ratio = (timestamp - before.timestamp) / interval;
+  const Eigen::Quaterniond a(before.world_from_cam.rotation());
+  const Eigen::Quaterniond b(next->world_from_cam.rotation());
+  return Rigid3(a.slerp(ratio, b), (1.0 - ratio) * before.world_from_cam.translation() +
+                                       ratio * next->world_from_cam.translation());
+}
+
+std::vector<TimedPose> ReadAs(PoseConvention convention, std::vector<TimedPose> poses) {
+  for (TimedPose& pose : poses) {
+    Rigid3& world_from_cam = pose.world_from_cam;
+    switch (convention) {
+      case PoseConvention::kWorldInCamera:
+        world_from_cam = world_from_cam.Inverse();
+        break;
+      case PoseConvention::kInverseRotation:
+        world_from_cam =
+            Rigid3(world_from_cam.rotation().conjugate(), world_from_cam.translation());
+        break;
+      case PoseConvention::kScalarFirst: {
+        const Eigen::Vector4d c = world_from_cam.params.head<4>();  // in the order of the file
+        world_from_cam =
+            Rigid3(Eigen::Quaterniond(c(0), c(1), c(2), c(3)), world_from_cam.translation());
+        break;
+      }
+      default:
+        break;
+    }
+  }
+  return poses;
+}
+
+std::vector<MotionComparison> CompareMotions(const MotionTrack& track,
+                                             const std::vector<TimedPose>& truth, double offset) {
+  std::vector<MotionComparison> comparisons;
+  for (const MotionPair& pair : track.pairs) {
+    const auto from = InterpolatePose(truth, track.images[pair.from].timestamp + offset);
+    const auto to = InterpolatePose(truth, track.images[pair.to].timestamp + offset);
+    if (!from || !to) continue;
+    const Rigid3 motion = to->Inverse() * *from;
+    const Rigid3 image_motion = track.MotionOf(pair);
+    MotionComparison comparison;
+    comparison.image_rotation = LogSO3(image_motion.rotation());
+    comparison.image_translation = image_motion.translation();
+    comparison.true_rotation = LogSO3(Eigen::Quaterniond(motion.rotation()));
+    comparison.true_translation = motion.translation();
+    comparisons.push_back(comparison);
+  }
+  return comparisons;
+}
+
+double RotationDisagreement(const std::vector<MotionComparison>& comparisons,
+                            const Eigen::Matrix3d& camera_from_body) {
+  std::vector<double> differences, rotations;
+  for (const MotionComparison& c : comparisons) {
+    differences.push_back((c.image_rotation - camera_from_body * c.true_rotation).norm());
+    rotations.push_back(c.image_rotation.norm());
+  }
+  return Median(std::move(differences)) / std::max(1e-6, Median(std::move(rotations)));
+}
+
+Eigen::Matrix3d FitBodyRotation(const std::vector<MotionComparison>& comparisons) {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  for (int iteration = 0; iteration < 5; ++iteration) {
+    Eigen::Matrix3d covariance = 1e-9 * Eigen::Matrix3d::Identity();
+    std::vector<double> errors;
+    for (const MotionComparison& c : comparisons) {
+      errors.push_back((c.image_rotation - rotation * c.true_rotation).norm());
+    }
+    const double scale = std::max(1e-4, iteration == 0 ? 1e3 : Median(errors));
+    for (size_t i = 0; i < comparisons.size(); ++i) {
+      const double weight = 1.0 / (1.0 + errors[i] * errors[i] / (scale * scale));
+      covariance +=
+          weight * comparisons[i].image_rotation * comparisons[i].true_rotation.transpose();
+    }
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
+                                                Eigen::ComputeFullU | Eigen::ComputeFullV);
+    Eigen::Vector3d signs = Eigen::Vector3d::Ones();
+    signs.z() = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
+    rotation = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+  }
+  return rotation;
+}
+
+double MedianTranslation(const std::vector<MotionComparison>& comparisons) {
+  std::vector<double> lengths;
+  for (const MotionComparison& c : comparisons) lengths.push_back(c.true_translation.norm());
+  return Median(std::move(lengths));
+}
+
+// Without a scale, the offset explains what the scale leaves.
+bool HandEye::HasScale() const { return scale_sigma <= kMaxScaleSigma * scale; }
+
+bool HandEye::HasOffset() const {
+  return HasScale() && offset.norm() > std::max(kMaxLever, kSignificantSigmas * offset_sigma);
+}
+
+HandEye FitHandEye(const std::vector<MotionComparison>& comparisons,
+                   const Eigen::Matrix3d& camera_from_body) {
+  return FitWithPrior(comparisons, camera_from_body, kOffsetPrior);
+}
+
+HandEye FitSignificantHandEye(const std::vector<MotionComparison>& comparisons,
+                              const Eigen::Matrix3d& camera_from_body) {
+  const HandEye free = FitWithPrior(comparisons, camera_from_body, kOffsetPrior);
+  return free.HasOffset() ? free : FitWithPrior(comparisons, camera_from_body, kNoOffset);
 }
 
 }  // namespace msc_vo

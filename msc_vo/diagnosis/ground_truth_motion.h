@@ -13,6 +13,9 @@
 
 namespace msc_vo {
 
+/// Standard deviations from which an estimate is significant.
+constexpr double kSignificantSigmas = 4.0;
+
 /// A relative motion from the images and the same from the ground truth. Rotations are rotation
 /// vectors (radians), both map coordinates of the earlier camera to the later one.
 struct MotionComparison {
@@ -28,9 +31,8 @@ enum class PoseConvention {
   kWorldInCamera,    ///< inverse poses
   kInverseRotation,  ///< position of the camera, but rotation from world to camera
   kScalarFirst,      ///< quaternions as w x y z
-  kMirrored,         ///< images mirrored left to right, or a left-handed world
 };
-constexpr int kNumPoseConventions = 5;
+constexpr int kNumPoseConventions = 4;
 
 const char* Describe(PoseConvention convention);
 
@@ -38,14 +40,15 @@ const char* Describe(PoseConvention convention);
 /// 0.3 seconds. `poses` must be in order of time.
 std::optional<Rigid3> InterpolatePose(const std::vector<TimedPose>& poses, double timestamp);
 
-/// Poses of the file as they would have to be read under a convention. Mirroring is left to
-/// CompareMotions().
+/// Poses of the file as they would have to be read under a convention.
 std::vector<TimedPose> ReadAs(PoseConvention convention, std::vector<TimedPose> poses);
 
 /// Compares the pairs of images with the ground truth `offset` seconds later.
 std::vector<MotionComparison> CompareMotions(const MotionTrack& track,
-                                             const std::vector<TimedPose>& truth,
-                                             PoseConvention convention, double offset);
+                                             const std::vector<TimedPose>& truth, double offset);
+
+/// Median length of the translations of the ground truth, metres. `comparisons` must not be empty.
+double MedianTranslation(const std::vector<MotionComparison>& comparisons);
 
 /// Median difference of the rotation vectors over the median rotation of the images, after the
 /// constant rotation `camera_from_body` has been applied to those of the ground truth.
@@ -63,11 +66,20 @@ struct HandEye {
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< metres, body origin in the camera frame
   double offset_sigma = 0.0;
   double correlation = 0.0;  ///< of the translations after the fit, -1..1
+
+  bool HasScale() const;   ///< whether the motion determines the scale
+  bool HasOffset() const;  ///< whether the offset is significant
 };
 
-/// Fits scale and offset, given the rotation. `comparisons` must not be empty. The offset is zero
-/// with standard deviation `offset_prior` (metres) beforehand.
+/// Fits scale and offset, given the axes of the body in the camera, which are orthogonal and may be
+/// left-handed. `comparisons` must not be empty.
 HandEye FitHandEye(const std::vector<MotionComparison>& comparisons,
-                   const Eigen::Matrix3d& camera_from_body, double offset_prior);
+                   const Eigen::Matrix3d& camera_from_body);
+
+/// The same fit if its offset is significant, or without an offset. Turning about a near point
+/// resembles a translation: an offset that is not significant must neither blur the scale nor
+/// explain wrong positions.
+HandEye FitSignificantHandEye(const std::vector<MotionComparison>& comparisons,
+                              const Eigen::Matrix3d& camera_from_body);
 
 }  // namespace msc_vo

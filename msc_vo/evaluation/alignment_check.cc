@@ -15,6 +15,7 @@
 
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/geometry/rigid_alignment.h"
+#include "msc_vo/geometry/so3.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
@@ -83,16 +84,32 @@ std::vector<size_t> DividePath(const Poses& reference, int num_parts) {
   return ends;
 }
 
-// Residual of the orientations after alignment, radians (RMS).
-double OrientationError(const Poses& reference, const Poses& estimate) {
-  const Eigen::Quaterniond rotation(AlignPoses(estimate, reference).rotation());
+// Residual of the orientations for a rotation between the worlds, radians (RMS).
+double OrientationError(const Eigen::Quaterniond& reference_from_estimate, const Poses& reference,
+                        const Poses& estimate) {
   double sum = 0.0;
   for (size_t i = 0; i < reference.size(); ++i) {
     const double angle = Eigen::Quaterniond(reference[i].rotation())
-                             .angularDistance(rotation * estimate[i].rotation());
+                             .angularDistance(reference_from_estimate * estimate[i].rotation());
     sum += angle * angle;
   }
   return std::sqrt(sum / static_cast<double>(reference.size()));
+}
+
+// The same after alignment of the orientations.
+double OrientationError(const Poses& reference, const Poses& estimate) {
+  return OrientationError(Eigen::Quaterniond(AlignPoses(estimate, reference).rotation()), reference,
+                          estimate);
+}
+
+// Rotation between the worlds that aligns the positions.
+Eigen::Quaterniond AlignPositions(const Poses& reference, const Poses& estimate) {
+  std::vector<Eigen::Vector3d> source, target;
+  for (size_t i = 0; i < reference.size(); ++i) {
+    source.emplace_back(estimate[i].translation());
+    target.emplace_back(reference[i].translation());
+  }
+  return Eigen::Quaterniond(AlignRigid(source, target).rotation());
 }
 
 // Poses whose quaternions were in the file with the scalar first, but were read with the scalar
@@ -105,6 +122,127 @@ Poses Reordered(Poses poses, bool scalar_was_first) {
                   pose.translation());
   }
   return poses;
+}
+
+// The ratio of the variances is the 99 % quantile of the F-distribution with 5 and 5 degrees of
+// freedom, few because errors of a trajectory are correlated.
+constexpr double kBetter = 0.3;
+constexpr double kRounding = 0.01;  // radians, of quaternions with two decimals
+
+// A trajectory whose quaternions are read in the other order.
+struct OrderReading {
+  bool of_reference;
+  bool scalar_was_first;
+  double error;           // radians (RMS)
+  double position_error;  // the same if positions align the worlds
+};
+
+// Both trajectories agree just as well if the other one is misread in the same way.
+std::vector<OrderReading> ReadInOtherOrder(const Poses& reference, const Poses& estimate,
+                                           bool estimate_is_own) {
+  const Eigen::Quaterniond world = AlignPositions(reference, estimate);
+  std::vector<OrderReading> readings;
+  for (const bool scalar_was_first : {true, false}) {
+    for (const bool of_reference : {true, false}) {
+      if (estimate_is_own && !of_reference) continue;
+      const Poses& read_reference =
+          of_reference ? Reordered(reference, scalar_was_first) : reference;
+      const Poses& read_estimate = of_reference ? estimate : Reordered(estimate, scalar_was_first);
+      readings.push_back({of_reference, scalar_was_first,
+                          OrientationError(read_reference, read_estimate),
+                          OrientationError(world, read_reference, read_estimate)});
+    }
+  }
+  return readings;
+}
+
+std::string DescribeOrders(const std::vector<OrderReading>& readings, double best, double given) {
+  std::string text = "the quaternions";
+  bool is_first = true;
+  for (const OrderReading& reading : readings) {
+    if (reading.error > std::min(std::max(best / kBetter, kRounding), kBetter * given)) continue;
+    text +=
+        FormatText("%s of the %s seem to be in the order %s", is_first ? "" : ", or those",
+                   reading.of_reference ? "reference" : "estimate",
+                   reading.scalar_was_first ? "qw qx qy qz" : "qx qy qz qw, if qw was read first");
+    is_first = false;
+  }
+  return text + FormatText(
+                    ": read so, the orientations differ by %.2f degrees instead of %.2f; name the "
+                    "columns in a header, '# time tx ty tz qw qx qy qz'",
+                    RadiansToDegrees(best), RadiansToDegrees(given));
+}
+
+// A constant rotation between the camera axes of two trajectories:
+// reference = reference_from_estimate * estimate * turn.
+struct AxesTurn {
+  Eigen::Quaterniond turn;
+  double error;           // radians (RMS), of the orientations after the turn
+  double position_error;  // the same if positions align the worlds
+};
+
+Poses Turned(Poses poses, const Eigen::Quaterniond& turn) {
+  for (Rigid3& pose : poses) pose = Rigid3(pose.rotation() * turn, pose.translation());
+  return poses;
+}
+
+// The best turn for a rotation between the worlds.
+Eigen::Quaterniond TurnFor(const Eigen::Quaterniond& reference_from_estimate,
+                           const Poses& reference, const Poses& estimate) {
+  Poses source, target;
+  for (size_t i = 0; i < reference.size(); ++i) {
+    source.push_back(
+        Rigid3(reference_from_estimate * estimate[i].rotation(), Eigen::Vector3d::Zero())
+            .Inverse());
+    target.push_back(Rigid3(reference[i].rotation(), Eigen::Vector3d::Zero()).Inverse());
+  }
+  return Eigen::Quaterniond(AlignPoses(source, target).rotation()).conjugate();
+}
+
+// Improves a turn by alternating between both sides of the estimate.
+AxesTurn Refined(Eigen::Quaterniond turn, const Poses& reference, const Poses& estimate) {
+  for (int iteration = 0; iteration < 5; ++iteration) {
+    turn = TurnFor(Eigen::Quaterniond(AlignPoses(Turned(estimate, turn), reference).rotation()),
+                   reference, estimate);
+  }
+  const Poses turned = Turned(estimate, turn);
+  return {turn, OrientationError(reference, turned),
+          OrientationError(AlignPositions(reference, estimate), reference, turned)};
+}
+
+// The turn that maps rotation vectors of the reference to those of the estimate over quarters of
+// the trajectory: turn * log(reference_i^-1 reference_j) = log(estimate_i^-1 estimate_j).
+Eigen::Quaterniond TurnFromMotion(const Poses& reference, const Poses& estimate) {
+  std::vector<Eigen::Vector3d> source, target;
+  const auto motion = [](const Rigid3& from, const Rigid3& to) {
+    return LogSO3(Eigen::Quaterniond(from.rotation()).conjugate() * to.rotation());
+  };
+  const size_t interval = std::max<size_t>(1, reference.size() / 4);
+  for (size_t i = 0; i + interval < reference.size(); ++i) {
+    for (const double sign : {1.0, -1.0}) {  // makes the mean zero, which AlignRigid() subtracts
+      source.push_back(sign * motion(reference[i], reference[i + interval]));
+      target.push_back(sign * motion(estimate[i], estimate[i + interval]));
+    }
+  }
+  return Eigen::Quaterniond(AlignRigid(source, target).rotation());
+}
+
+AxesTurn FitAxesTurn(const Poses& reference, const Poses& estimate) {
+  // Positions determine the turn even if the camera rotates about one axis only, but may be wrong.
+  const Eigen::Quaterniond world = AlignPositions(reference, estimate);
+  const AxesTurn by_positions = Refined(TurnFor(world, reference, estimate), reference, estimate);
+  const AxesTurn by_motion = Refined(TurnFromMotion(reference, estimate), reference, estimate);
+  return by_positions.error <= by_motion.error / kBetter ? by_positions : by_motion;
+}
+
+std::string DescribeAxes(const AxesTurn& axes, double given, bool estimate_is_own) {
+  return FormatText(
+      "the axes of the reference poses differ from those of the %s by a %s: turned back, the "
+      "orientations differ by %.2f degrees instead of %.2f; x must point right, y down and z "
+      "forward in the image",
+      estimate_is_own ? "camera" : "estimated poses",
+      DescribeTurn(axes.turn.toRotationMatrix()).c_str(), RadiansToDegrees(axes.error),
+      RadiansToDegrees(given));
 }
 
 }  // namespace
@@ -178,44 +316,49 @@ std::string DescribeScaleContradiction(const Poses& reference, const Poses& esti
   return "";
 }
 
-std::string DescribeQuaternionOrder(const Poses& reference, const Poses& estimate) {
-  constexpr double kRounding = 0.01;  // radians, of quaternions with two decimals
-  // The ratio of the variances is the 99 % quantile of the F-distribution with 5 and 5 degrees of
-  // freedom, few because errors of a trajectory are correlated.
-  constexpr double kBetter = 0.3;
+std::string DescribeTurn(const Eigen::Matrix3d& rotation) {
+  const double parallel = std::cos(DegreesToRadians(3.0));
+  const Eigen::AngleAxisd turn(rotation);
+  const Eigen::Vector3d& axis = turn.axis();
+  Eigen::Index largest = 0;
+  const bool is_named = axis.cwiseAbs().maxCoeff(&largest) > parallel;
+  // The sign of the axis means nothing for half a turn.
+  const bool is_half = RadiansToDegrees(turn.angle()) > 179.5;
+  const double sign = is_half && axis(largest) < 0.0 ? -1.0 : 1.0;
+  const std::string name =
+      is_named
+          ? std::string(sign * axis(largest) < 0.0 ? "-" : "") + "xyz"[largest]
+          : FormatText("(%.2f, %.2f, %.2f)", sign * axis.x(), sign * axis.y(), sign * axis.z());
+  return FormatText("%.3g degree turn about %s", RadiansToDegrees(turn.angle()), name.c_str());
+}
+
+std::string DescribeOrientationContradiction(const Poses& reference, const Poses& estimate,
+                                             bool estimate_is_own) {
+  constexpr size_t kMinPoses = 8;         // for a turn
+  constexpr double kMinTurn = 5.0;        // degrees
+  constexpr double kSimpler = 0.8;        // an order has no parameters, a turn has three
+  constexpr double kErrorOfRight = 0.05;  // radians, of a reading that is right
   const double given = OrientationError(reference, estimate);
   if (given <= kRounding) return "";
-  // Both trajectories agree just as well if the other one is misread in the same way.
-  struct Reading {
-    bool of_reference;
-    bool scalar_was_first;
-    double error;  // radians
-  };
-  std::vector<Reading> readings;
-  double best = kBetter * given;
-  for (const bool scalar_was_first : {true, false}) {
-    for (const bool of_reference : {true, false}) {
-      const Poses read = Reordered(of_reference ? reference : estimate, scalar_was_first);
-      const double error =
-          of_reference ? OrientationError(read, estimate) : OrientationError(reference, read);
-      best = std::min(best, error);
-      if (error < kBetter * given) readings.push_back({of_reference, scalar_was_first, error});
+  const double limit = std::min(std::max(kErrorOfRight, 0.1 * given), kBetter * given);
+  const std::vector<OrderReading> orders = ReadInOtherOrder(reference, estimate, estimate_is_own);
+  const OrderReading* order = nullptr;
+  for (const OrderReading& reading : orders) {
+    if (reading.error < (order ? order->error : limit)) order = &reading;
+  }
+  if (reference.size() >= kMinPoses) {
+    const AxesTurn axes = FitAxesTurn(reference, estimate);
+    const double angle = RadiansToDegrees(Eigen::AngleAxisd(axes.turn).angle());
+    // If the camera rotates about one axis, orientations do not distinguish both.
+    const bool is_determined = DescribeUndetermined(reference, estimate, true).empty();
+    const bool is_preferred =
+        !order || axes.error < kSimpler * order->error ||
+        (is_determined && axes.position_error < kBetter * order->position_error);
+    if (axes.error < limit && angle > kMinTurn && is_preferred) {
+      return DescribeAxes(axes, given, estimate_is_own);
     }
   }
-  std::string text;
-  for (const Reading& reading : readings) {
-    if (reading.error > std::max(best / kBetter, kRounding)) continue;
-    text +=
-        FormatText("%s of the %s seem to be in the order %s", text.empty() ? "" : ", or those",
-                   reading.of_reference ? "reference" : "estimate",
-                   reading.scalar_was_first ? "qw qx qy qz" : "qx qy qz qw, if qw was read first");
-  }
-  if (text.empty()) return "";
-  return "the quaternions" + text +
-         FormatText(
-             ": read so, the orientations differ by %.2f degrees instead of %.2f; name the "
-             "columns in a header, '# time tx ty tz qw qx qy qz'",
-             RadiansToDegrees(best), RadiansToDegrees(given));
+  return order ? DescribeOrders(orders, order->error, given) : "";
 }
 
 }  // namespace msc_vo

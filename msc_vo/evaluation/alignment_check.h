@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "msc_vo/geometry/rigid3.h"
 
 namespace msc_vo {
@@ -31,9 +33,17 @@ std::string DescribeUndetermined(const std::vector<Rigid3>& reference,
 std::string DescribeScaleContradiction(const std::vector<Rigid3>& reference,
                                        const std::vector<Rigid3>& estimate);
 
-/// Describes that quaternions of one trajectory agree much better with the other one if their
-/// scalar is taken from the other end of the four numbers; empty if they do not.
-std::string DescribeQuaternionOrder(const std::vector<Rigid3>& reference,
-                                    const std::vector<Rigid3>& estimate);
+/// Names angle and axis of a rotation: "180 degree turn about x", "120 degree turn about (0.58,
+/// -0.58, 0.58)".
+std::string DescribeTurn(const Eigen::Matrix3d& rotation);
+
+/// Describes why orientations contradict each other; empty if they agree or nothing explains it.
+/// Either the camera axes of both trajectories differ by a constant rotation, such as those of
+/// OpenGL (x right, y up, z back), or the scalar of one trajectory's quaternions is at the other
+/// end of the four numbers. Read so, orientations must nearly agree. `estimate_is_own`: the
+/// estimate is a trajectory of msc_vo, so that only the reference can be at fault.
+std::string DescribeOrientationContradiction(const std::vector<Rigid3>& reference,
+                                             const std::vector<Rigid3>& estimate,
+                                             bool estimate_is_own);
 
 }  // namespace msc_vo

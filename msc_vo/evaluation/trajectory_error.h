@@ -36,6 +36,9 @@ struct EvaluationOptions {
   RelativeDelta rpe_delta;  ///< of TrajectoryError::rpe
   /// Also compares poses that are marked as not estimated (TimedPose); by default they are ignored.
   bool all_poses = false;
+  /// The estimate is a trajectory of msc_vo itself: warnings about the axes of the camera or the
+  /// order of quaternions name the reference only.
+  bool estimate_is_own = false;
 
   /// If an option is invalid, `error` names it and its valid range.
   bool IsValid(std::string* error) const;
@@ -60,7 +63,7 @@ struct TrajectoryError {
   bool usable = false;  ///< false: there are no errors, `message` names the reason
   std::string message;
   /// What makes the errors doubtful although they are usable: an alignment that is not determined,
-  /// scales or orders of quaternions that contradict each other (alignment_check.h).
+  /// scales or orientations that contradict each other (alignment_check.h).
   std::vector<std::string> warnings;
 
   int num_reference = 0;

@@ -23,7 +23,7 @@ using testing::StartsWith;
 
 // Of raw values, per metre.
 constexpr double kScale = 1000.0;
-constexpr int kNumImages = 4;
+constexpr int kNumFrames = 4;
 const PinholeCamera kCamera{130.0, 130.0, 79.5, 59.5, 160, 120};
 
 // What an image holds instead of a depth (metres) along the viewing ray through a point of the
@@ -51,7 +51,7 @@ double Bumps(const Eigen::Vector3d& direction) {
          direction.norm();
 }
 
-struct Scene {
+struct DepthScene {
   Surface surface = Box;
   LensDistortion lens = {};
   double inverse_depth_noise = 0.0;  // standard deviation, 1/metres
@@ -64,11 +64,12 @@ struct Description {
 };
 
 // Depth images from the middle of the room, whose values are encoded, with rounding to raw units.
-DepthCurveTest Observe(const Scene& scene, const Encoding& encode, const Description& given = {}) {
+DepthCurveTest Observe(const DepthScene& scene, const Encoding& encode,
+                       const Description& given = {}) {
   DepthCurveTest test(given.camera, given.lens.value_or(scene.lens), kScale);
   std::mt19937 random(1);
   std::normal_distribution<double> noise(0.0, scene.inverse_depth_noise);
-  for (int i = 0; i < kNumImages; ++i) {
+  for (int i = 0; i < kNumFrames; ++i) {
     const Eigen::Matrix3d rotation =
         (Eigen::AngleAxisd(0.9 * i + 0.3, Eigen::Vector3d::UnitY()) *
          Eigen::AngleAxisd(0.35 * std::sin(2.0 * i + 0.5), Eigen::Vector3d::UnitX()))
@@ -187,7 +188,7 @@ TEST(DepthCurve, IsIndependentOfTheCamera) {
     given.camera.fx *= ratio;
     given.camera.fy *= ratio;
     given.camera.cx += 10.0;
-    for (const Scene& scene : {Scene(), Scene{Box, lens}}) {
+    for (const DepthScene& scene : {DepthScene(), DepthScene{Box, lens}}) {
       EXPECT_TRUE(Observe(scene, Depth, given).OfInverse().ProveDepth()) << ratio;
       EXPECT_FALSE(Observe(scene, Depth, given).Best().ProveCurve()) << ratio;
     }
@@ -204,7 +205,7 @@ TEST(DepthCurve, IsNotToldByEmptyOrConstantImages) {
   for (const float value : {0.0f, 2.0f, 65.535f}) {
     DepthCurveTest test(kCamera, {}, kScale);
     EXPECT_FALSE(test.IsDecided());
-    for (int i = 0; i < kNumImages; ++i) test.Add(cv::Mat(120, 160, CV_32FC1, cv::Scalar(value)));
+    for (int i = 0; i < kNumFrames; ++i) test.Add(cv::Mat(120, 160, CV_32FC1, cv::Scalar(value)));
     EXPECT_FALSE(test.IsDecided() && test.Best().ProveCurve()) << value;
     EXPECT_NE(Verdict(test).find("not tested"), std::string::npos) << value << Verdict(test);
   }

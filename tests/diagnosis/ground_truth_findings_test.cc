@@ -18,18 +18,18 @@
 namespace msc_vo {
 namespace {
 
-constexpr int kNumImages = 60;
+constexpr int kNumTrackedImages = 60;
 
 // Wrong ground truth of one recording, whose images are tracked once.
 class GroundTruthTest : public TemporaryFolder {
  protected:
   void Track(const SyntheticSequenceOptions& options) {
-    const Recording recording = Record(options, kNumImages);
+    const Recording recording = Record(options, kNumTrackedImages);
     recording.Write(Folder());
     SequenceIndex index = OpenSequence(Folder());
     const Calibration calibration = ResolveCalibration(CameraSettings(), "", &index);
     truth_ = index.ground_truth;
-    track_ = TrackMotion(RgbdDecoder(index, calibration), OdometryOptions(), kNumImages);
+    track_ = TrackMotion(RgbdDecoder(index, calibration), OdometryOptions(), kNumTrackedImages);
   }
 
   Findings Diagnose(const std::vector<TimedPose>& truth, double depth_scale = 5000.0,
@@ -105,7 +105,7 @@ TEST_F(GroundTruthTest, FindsWrongPoses) {
   other_options.seed = 7;
   const SyntheticSequence other(other_options);
   std::vector<TimedPose> truth;
-  for (int i = 0; i < kNumImages; ++i) truth.push_back(other.PoseAt(i));
+  for (int i = 0; i < kNumTrackedImages; ++i) truth.push_back(other.PoseAt(i));
   ExpectFinding(Diagnose(truth), Severity::kWarning, "ground_truth.convention", Names("motion"),
                 "other sequence");
 }

@@ -86,6 +86,19 @@ TEST_F(SequenceCheckTest, SuggestsDepthScale) {
               Contains(Is(Severity::kWarning, "depth.scale", Names("0.100 m", "depth_scale"))));
 }
 
+// The depth scale of the camera has no effect on them.
+TEST_F(SequenceCheckTest, SuggestsTheUnitsOfFloatingPointDepth) {
+  for (int i = 0; i < 6; ++i) {
+    WriteImage(std::to_string(i) + "d.tiff", CV_32FC1, 0.3);
+    index_.entries[i].depth_path = Path(std::to_string(i) + "d.tiff");
+  }
+  const auto warning = Is(Severity::kWarning, "depth.scale",
+                          Names("0.300 m", "camera.float_depth_scale", "0.1", "3.00 m"));
+  EXPECT_THAT(Check(), Contains(AllOf(warning, Field(&Finding::fix, Not(Names("1000.0"))))));
+  index_.float_depth_scale = 0.1;
+  EXPECT_THAT(Check(), Contains(Is(Severity::kGood, "depth.scale", Names("3.00 m"))));
+}
+
 TEST_F(SequenceCheckTest, ReportsMissingAndUnusableImages) {
   std::filesystem::remove(Path("3.png"));
   WriteImage("4d.png", CV_8UC1, 9);
@@ -190,8 +203,11 @@ TEST_F(SequenceCheckTest, SaysThatTheCalibrationIsNotTested) {
 
 TEST_F(SequenceCheckTest, WarnsOfGroundTruthAtOtherTimes) {
   for (TimedPose& pose : index_.ground_truth) pose.timestamp += 1000.0;
-  EXPECT_THAT(Check(),
-              Contains(Is(Severity::kWarning, "ground_truth.overlap", Names("1000.000 s"))));
+  EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "ground_truth.overlap",
+                                   Names("1000.000 s", "after"))));
+  for (TimedPose& pose : index_.ground_truth) pose.timestamp -= 2000.0;
+  EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "ground_truth.overlap",
+                                   Names("begin 1000.000 s before"))));
 }
 
 TEST_F(SequenceCheckTest, ReportsEmptyDepth) {

@@ -9,11 +9,15 @@
 #include "tests/support/message_matchers.h"
 #include <gmock/gmock.h>
 
+#include "msc_vo/geometry/angles.h"
+
 namespace msc_vo {
 namespace {
 
 using testing::ContainsRegex;
+using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 using Poses = std::vector<Rigid3>;
 
 Poses Path(int num_poses = 100) {
@@ -152,25 +156,127 @@ Poses Misread(Poses poses, bool scalar_is_first) {
   return poses;
 }
 
-TEST(DescribeQuaternionOrder, NamesTheTrajectoryAndItsOrder) {
+// With camera axes that differ by a constant rotation.
+Poses Turned(Poses poses, const Eigen::Vector3d& axis, double degrees) {
+  const Eigen::Quaterniond turn = ExpSO3(DegreesToRadians(degrees) * axis.normalized());
+  for (Rigid3& pose : poses) pose = Rigid3(pose.rotation() * turn, pose.translation());
+  return poses;
+}
+
+// The same path with a fraction of its rotations.
+Poses WithLittleRotation(Poses poses, double ratio) {
+  for (Rigid3& pose : poses) {
+    pose = Rigid3(ExpSO3(ratio * LogSO3(Eigen::Quaterniond(pose.rotation()))), pose.translation());
+  }
+  return poses;
+}
+
+// In another world.
+Poses Moved(Poses poses) {
+  const Rigid3 world(ExpSO3({0.4, -1.1, 2.0}), Eigen::Vector3d(3, -2, 1));
+  for (Rigid3& pose : poses) pose = world * pose;
+  return poses;
+}
+
+std::string Contradiction(const Poses& reference, const Poses& estimate, bool is_own = false) {
+  return DescribeOrientationContradiction(reference, estimate, is_own);
+}
+
+TEST(DescribeTurn, NamesAngleAndAxis) {
+  const auto describe = [](const Eigen::Vector3d& axis, double degrees) {
+    return DescribeTurn(ExpSO3(DegreesToRadians(degrees) * axis.normalized()).toRotationMatrix());
+  };
+  EXPECT_EQ(describe({1, 0, 0}, 180), "180 degree turn about x");
+  EXPECT_EQ(describe({0, -1, 0}, 180), "180 degree turn about y");
+  EXPECT_EQ(describe({0, 0, 1}, -90), "90 degree turn about -z");
+  EXPECT_EQ(describe({1, -1, 1}, 120), "120 degree turn about (0.58, -0.58, 0.58)");
+}
+
+TEST(DescribeOrientationContradiction, NamesTheTurnBetweenCameraAxes) {
+  for (const double ratio : {0.1, 0.3, 1.0}) {
+    const Poses path = WithLittleRotation(Path(), ratio);
+    const Poses estimate = WithNoise(Moved(path), 1e-3, 1e-3, 1);
+    for (const bool is_own : {false, true}) {
+      const auto describe = [&](const Eigen::Vector3d& axis, double degrees) {
+        return Contradiction(Turned(path, axis, degrees), estimate, is_own);
+      };
+      EXPECT_THAT(describe({1, 0, 0}, 180), ContainsRegex("1[78][0-9.]+ degree turn about x:"));
+      EXPECT_THAT(describe({0, 1, 0}, 180), ContainsRegex("1[78][0-9.]+ degree turn about y:"));
+      EXPECT_THAT(describe({0, 0, 1}, 180), ContainsRegex("1[78][0-9.]+ degree turn about z:"));
+      EXPECT_THAT(describe({0, 0, 1}, 90), ContainsRegex("(89|90)[0-9.]* degree turn about z:"));
+      EXPECT_THAT(describe({1, -1, 1}, 120), HasSubstr("degree turn about (0.5"));
+      EXPECT_THAT(describe({1, 2, 3}, 150), HasSubstr("degree turn about (0.2"));
+    }
+    const Poses opengl = Turned(path, {1, 0, 0}, 180);
+    EXPECT_THAT(Contradiction(opengl, estimate, true), Names("reference", "camera"));
+    EXPECT_THAT(Contradiction(opengl, estimate, true), Not(HasSubstr("estimate")));
+    EXPECT_THAT(Contradiction(opengl, estimate, true), Not(HasSubstr("quaternion")));
+    EXPECT_THAT(Contradiction(opengl, estimate, false), Names("reference", "estimated"));
+    EXPECT_THAT(Contradiction(path, Turned(estimate, {1, 0, 0}, 180)), HasSubstr("about x:"));
+  }
+}
+
+TEST(DescribeOrientationContradiction, NamesTheTurnOfACameraThatOnlyPans) {
+  Poses path = Path();
+  for (size_t i = 0; i < path.size(); ++i) {
+    const double angle = 0.6 * std::sin(0.05 * static_cast<double>(i));
+    path[i] = Rigid3(ExpSO3({0.0, angle, 0.0}), path[i].translation());
+  }
+  const Poses estimate = WithNoise(path, 1e-3, 1e-3, 1);
+  EXPECT_THAT(Contradiction(Turned(path, {1, 0, 0}, 180), estimate),
+              HasSubstr("180 degree turn about x"));
+  // Quaternions of the estimate in the other order would be those of such a turn about z.
+  for (const char* const name : {"x", "z"}) {
+    const Eigen::Vector3d axis = Eigen::Vector3d::Unit(*name - 'x');
+    EXPECT_THAT(Contradiction(Moved(Turned(path, axis, 180)), estimate, true),
+                HasSubstr(std::string("180 degree turn about ") + name));
+  }
+}
+
+TEST(DescribeOrientationContradiction, NamesTheTurnIfPositionsAreWrong) {
+  const Poses opengl = Turned(Path(), {1, 0, 0}, 180);
+  for (const Poses& estimate : {Still(Path()), Straight(), Scaled(Path(), -1.0)}) {
+    EXPECT_THAT(Contradiction(opengl, estimate), HasSubstr("180 degree turn about x"));
+  }
+}
+
+TEST(DescribeOrientationContradiction, NamesTheTrajectoryAndItsOrder) {
   const Poses estimate = WithNoise(Path(), 0.01, 0.01, 1);
-  EXPECT_THAT(DescribeQuaternionOrder(Misread(Path(), true), estimate),
+  EXPECT_THAT(Contradiction(Misread(Path(), true), estimate),
               ContainsRegex("reference[^,]*qw qx qy qz"));
-  EXPECT_THAT(DescribeQuaternionOrder(Path(), Misread(estimate, true)),
+  EXPECT_THAT(Contradiction(Path(), Misread(estimate, true)),
               ContainsRegex("estimate[^,]*qw qx qy qz"));
-  EXPECT_THAT(DescribeQuaternionOrder(Path(), Misread(estimate, false)),
+  EXPECT_THAT(Contradiction(Path(), Misread(estimate, false)),
               ContainsRegex("estimate[^,]*qx qy qz qw"));
 }
 
-TEST(DescribeQuaternionOrder, IsSilentIfTheOrderMakesNoDifference) {
-  EXPECT_THAT(DescribeQuaternionOrder(Path(), Path()), IsEmpty());
+TEST(DescribeOrientationContradiction, BlamesNoOwnEstimate) {
+  const Poses estimate = WithNoise(Path(), 0.01, 0.01, 1);
+  for (const bool scalar_is_first : {true, false}) {
+    const std::string text = Contradiction(Misread(Path(), scalar_is_first), estimate, true);
+    EXPECT_THAT(text, HasSubstr("quaternions of the reference"));
+    EXPECT_THAT(text, Not(HasSubstr("estimate")));
+  }
+}
+
+TEST(DescribeOrientationContradiction, IsSilentIfNothingExplainsTheDifference) {
+  EXPECT_THAT(Contradiction(Path(), Path()), IsEmpty());
+  EXPECT_THAT(Contradiction(Turned(Path(), {1, 2, 3}, 3.0), Path()), IsEmpty());
   for (int seed = 0; seed < 50; ++seed) {
     for (const double sigma : {0.01, 0.1, 1.0}) {
-      EXPECT_THAT(DescribeQuaternionOrder(Path(), WithNoise(Path(), 0.0, sigma, seed)), IsEmpty());
-      const Poses fixed(100, Path()[0]);
-      EXPECT_THAT(DescribeQuaternionOrder(fixed, WithNoise(fixed, 0.0, sigma, seed)), IsEmpty());
+      for (const size_t num_poses : {3, 8, 100}) {
+        const Poses path = Path(static_cast<int>(num_poses));
+        EXPECT_THAT(Contradiction(path, WithNoise(path, 0.0, sigma, seed)), IsEmpty());
+        const Poses fixed(num_poses, path[0]);
+        EXPECT_THAT(Contradiction(fixed, WithNoise(fixed, 0.0, sigma, seed)), IsEmpty());
+        const Poses turned = Turned(path, {1, 0, 0}, 180);
+        if (sigma < 1.0) continue;
+        EXPECT_THAT(Contradiction(turned, WithNoise(path, 0.0, sigma, seed)), IsEmpty());
+      }
     }
   }
+  const Poses far = Scaled(Path(), 1e200);
+  EXPECT_THAT(Contradiction(far, WithNoise(far, 0.0, 0.1, 1)), IsEmpty());
 }
 
 }  // namespace

@@ -23,16 +23,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kTolerance = 1e-7;
+constexpr double kNumpyTolerance = 1e-7;
 
 void ExpectEqual(const ErrorStatistics& ours, const nlohmann::json& theirs, double factor = 1.0) {
-  EXPECT_NEAR(factor * ours.rmse, theirs["rmse"], kTolerance);
-  EXPECT_NEAR(factor * ours.mean, theirs["mean"], kTolerance);
-  EXPECT_NEAR(factor * ours.median, theirs["median"], kTolerance);
-  EXPECT_NEAR(factor * ours.std, theirs["std"], kTolerance);
-  EXPECT_NEAR(factor * ours.min, theirs["min"], kTolerance);
-  EXPECT_NEAR(factor * ours.max, theirs["max"], kTolerance);
-  EXPECT_NEAR(factor * factor * ours.sse, theirs["sse"], kTolerance * ours.count);
+  EXPECT_NEAR(factor * ours.rmse, theirs["rmse"], kNumpyTolerance);
+  EXPECT_NEAR(factor * ours.mean, theirs["mean"], kNumpyTolerance);
+  EXPECT_NEAR(factor * ours.median, theirs["median"], kNumpyTolerance);
+  EXPECT_NEAR(factor * ours.std, theirs["std"], kNumpyTolerance);
+  EXPECT_NEAR(factor * ours.min, theirs["min"], kNumpyTolerance);
+  EXPECT_NEAR(factor * ours.max, theirs["max"], kNumpyTolerance);
+  EXPECT_NEAR(factor * factor * ours.sse, theirs["sse"], kNumpyTolerance * ours.count);
 }
 
 struct Case {
@@ -74,7 +74,7 @@ TEST_P(FieldDefinitionsTest, AgreeWithNumpy) {
   options.rpe_delta = GetParam().delta;
   const TrajectoryError error = EvaluateTrajectory(truth, estimate, options);
   ASSERT_TRUE(error.usable);
-  EXPECT_NEAR(error.scale, numpy["scale"], kTolerance);
+  EXPECT_NEAR(error.scale, numpy["scale"], kNumpyTolerance);
   EXPECT_EQ(error.rpe.translation.count, numpy["pairs"]);
   EXPECT_GT(error.rpe.translation.count, 5);
   ExpectEqual(error.ape, numpy["ape"]);

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kTolerance = 1e-6;
+constexpr double kToolTolerance = 1e-6;
 
 class ReferenceToolTest : public testing::Test {
  protected:
@@ -49,20 +49,20 @@ class ReferenceToolTest : public testing::Test {
     const nlohmann::json tool = nlohmann::json::parse(output);
     const TrajectoryError ours = EvaluateTrajectory(truth, estimate);
     ASSERT_TRUE(ours.usable);
-    EXPECT_NEAR(ours.ape.rmse, tool["ape_rmse"], kTolerance);
-    EXPECT_NEAR(ours.ape.mean, tool["ape_mean"], kTolerance);
-    EXPECT_NEAR(ours.ape.median, tool["ape_median"], kTolerance);
-    EXPECT_NEAR(ours.ape.max, tool["ape_max"], kTolerance);
-    EXPECT_NEAR(RadiansToDegrees(ours.ape_rotation.rmse), tool["ape_rot_deg"], kTolerance);
-    EXPECT_NEAR(ours.rpe_per_second.translation.rmse, tool["rpe_1s"], kTolerance);
+    EXPECT_NEAR(ours.ape.rmse, tool["ape_rmse"], kToolTolerance);
+    EXPECT_NEAR(ours.ape.mean, tool["ape_mean"], kToolTolerance);
+    EXPECT_NEAR(ours.ape.median, tool["ape_median"], kToolTolerance);
+    EXPECT_NEAR(ours.ape.max, tool["ape_max"], kToolTolerance);
+    EXPECT_NEAR(RadiansToDegrees(ours.ape_rotation.rmse), tool["ape_rot_deg"], kToolTolerance);
+    EXPECT_NEAR(ours.rpe_per_second.translation.rmse, tool["rpe_1s"], kToolTolerance);
     EXPECT_NEAR(RadiansToDegrees(ours.rpe_per_second.rotation.rmse), tool["rpe_1s_rot_deg"],
-                kTolerance);
+                kToolTolerance);
     EXPECT_EQ(ours.rpe_per_second.translation.count, tool["rpe_pairs"]);
     EXPECT_EQ(ours.num_matched, tool["matched"]);
     EXPECT_EQ(ours.num_reference_in_range, tool["gt_in_range"]);
-    EXPECT_NEAR(ours.coverage, tool["coverage"], kTolerance);
-    EXPECT_NEAR(ours.coverage_in_range, tool["coverage_in_range"], kTolerance);
-    EXPECT_NEAR(ours.path_length, tool["path_len"], kTolerance);
+    EXPECT_NEAR(ours.coverage, tool["coverage"], kToolTolerance);
+    EXPECT_NEAR(ours.coverage_in_range, tool["coverage_in_range"], kToolTolerance);
+    EXPECT_NEAR(ours.path_length, tool["path_len"], kToolTolerance);
   }
 
   std::string python_;

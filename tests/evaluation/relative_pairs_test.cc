@@ -13,8 +13,8 @@ using testing::IsEmpty;
 using testing::Pair;
 
 // Poses along x at these metres, one second apart.
-std::vector<std::pair<int, int>> Pairs(const std::vector<double>& metres,
-                                       const RelativeDelta& delta) {
+std::vector<std::pair<int, int>> PairsAlong(const std::vector<double>& metres,
+                                            const RelativeDelta& delta) {
   std::vector<double> stamps;
   std::vector<Eigen::Vector3d> positions;
   for (const double x : metres) {
@@ -26,33 +26,36 @@ std::vector<std::pair<int, int>> Pairs(const std::vector<double>& metres,
 
 TEST(RelativePairs, SelectsFrames) {
   const std::vector<double> path = {0, 0, 0, 0, 0};
-  EXPECT_THAT(Pairs(path, {2, DeltaUnit::kFrames, false}), ElementsAre(Pair(0, 2), Pair(2, 4)));
-  EXPECT_THAT(Pairs(path, {2, DeltaUnit::kFrames, true}),
+  EXPECT_THAT(PairsAlong(path, {2, DeltaUnit::kFrames, false}),
+              ElementsAre(Pair(0, 2), Pair(2, 4)));
+  EXPECT_THAT(PairsAlong(path, {2, DeltaUnit::kFrames, true}),
               ElementsAre(Pair(0, 2), Pair(1, 3), Pair(2, 4)));
-  EXPECT_THAT(Pairs(path, {5, DeltaUnit::kFrames, true}), IsEmpty());
+  EXPECT_THAT(PairsAlong(path, {5, DeltaUnit::kFrames, true}), IsEmpty());
 }
 
 TEST(RelativePairs, SelectsPathLengths) {
   // The path reaches one metre at pose 2, then 1.2 metres after it at pose 4, then 0.8 at the end.
   const std::vector<double> path = {0.0, 0.5, 1.0, 1.5, 2.2, 3.0};
-  EXPECT_THAT(Pairs(path, {1, DeltaUnit::kMetres, false}), ElementsAre(Pair(2, 4)));
-  EXPECT_THAT(Pairs(path, {1, DeltaUnit::kMetres, true}), ElementsAre(Pair(0, 2), Pair(1, 3)));
+  EXPECT_THAT(PairsAlong(path, {1, DeltaUnit::kMetres, false}), ElementsAre(Pair(2, 4)));
+  EXPECT_THAT(PairsAlong(path, {1, DeltaUnit::kMetres, true}), ElementsAre(Pair(0, 2), Pair(1, 3)));
   // Back and forth: the path counts, not the distance.
-  EXPECT_THAT(Pairs({0, 1, 0, 1, 0}, {2, DeltaUnit::kMetres, false}), ElementsAre(Pair(2, 4)));
+  EXPECT_THAT(PairsAlong({0, 1, 0, 1, 0}, {2, DeltaUnit::kMetres, false}), ElementsAre(Pair(2, 4)));
 }
 
 TEST(RelativePairs, SelectsSeconds) {
   const std::vector<double> path = {0, 0, 0, 0, 0};
-  EXPECT_THAT(Pairs(path, {2.05, DeltaUnit::kSeconds, false}), ElementsAre(Pair(0, 2), Pair(2, 4)));
-  EXPECT_THAT(Pairs(path, {2.05, DeltaUnit::kSeconds, true}),
+  EXPECT_THAT(PairsAlong(path, {2.05, DeltaUnit::kSeconds, false}),
+              ElementsAre(Pair(0, 2), Pair(2, 4)));
+  EXPECT_THAT(PairsAlong(path, {2.05, DeltaUnit::kSeconds, true}),
               ElementsAre(Pair(0, 2), Pair(1, 3), Pair(2, 4)));
-  EXPECT_THAT(Pairs(path, {1.5, DeltaUnit::kSeconds, true}), IsEmpty());  // beyond the tolerance
+  EXPECT_THAT(PairsAlong(path, {1.5, DeltaUnit::kSeconds, true}),
+              IsEmpty());  // beyond the tolerance
 }
 
 TEST(RelativePairs, HandlesFewPoses) {
   for (const DeltaUnit unit : {DeltaUnit::kFrames, DeltaUnit::kMetres, DeltaUnit::kSeconds}) {
-    EXPECT_THAT(Pairs({}, {1, unit, true}), IsEmpty());
-    EXPECT_THAT(Pairs({0}, {1, unit, true}), IsEmpty());
+    EXPECT_THAT(PairsAlong({}, {1, unit, true}), IsEmpty());
+    EXPECT_THAT(PairsAlong({0}, {1, unit, true}), IsEmpty());
   }
 }
 

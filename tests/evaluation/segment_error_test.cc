@@ -3,8 +3,7 @@
 
 #include "msc_vo/evaluation/segment_error.h"
 
-#include <cmath>
-
+#include "tests/evaluation/curved_path.h"
 #include <gmock/gmock.h>
 
 #include "msc_vo/geometry/so3.h"
@@ -12,17 +11,8 @@
 namespace msc_vo {
 namespace {
 
-std::vector<TimedPose> CurvedPath(int num_poses) {
-  std::vector<TimedPose> poses;
-  for (int i = 0; i < num_poses; ++i) {
-    const double t = 0.1 * i;
-    poses.push_back({t, Rigid3(ExpSO3({0.0, 0.1 * t, 0.0}), {std::sin(t), t, std::cos(2.0 * t)})});
-  }
-  return poses;
-}
-
 TEST(EvaluateSegments, AlignsEachSegmentByItself) {
-  const std::vector<TimedPose> truth = CurvedPath(40);
+  const std::vector<TimedPose> truth = CurvedPath(40, 10.0);
   std::vector<TimedPose> estimate = truth;
   const Rigid3 jump(ExpSO3({0.0, 0.0, 1.0}), {5.0, 0.0, 0.0});
   for (int i = 20; i < 40; ++i) {
@@ -42,14 +32,14 @@ TEST(EvaluateSegments, AlignsEachSegmentByItself) {
 }
 
 TEST(EvaluateSegments, IsEmptyForOneSegment) {
-  const std::vector<TimedPose> truth = CurvedPath(10);
+  const std::vector<TimedPose> truth = CurvedPath(10, 10.0);
   EXPECT_TRUE(EvaluateSegments(truth, truth).empty());
   EXPECT_FALSE(HasSeveralWorlds(truth));
   EXPECT_FALSE(HasSeveralWorlds({}));
 }
 
 TEST(EvaluateSegments, NamesASegmentWithTooFewPoses) {
-  const std::vector<TimedPose> truth = CurvedPath(10);
+  const std::vector<TimedPose> truth = CurvedPath(10, 10.0);
   std::vector<TimedPose> estimate = truth;
   estimate.back().segment = 1;
   const std::vector<SegmentError> errors = EvaluateSegments(truth, estimate);
