@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include <yaml-cpp/yaml.h>
 
@@ -90,12 +91,17 @@ void ReadConfiguration(const std::string& path, Configuration* configuration) {
     return;
   }
   YamlReader reader(path, ListOptions(configuration));
-  YAML::Node root;
+  std::vector<YAML::Node> documents;
   try {
-    root = YAML::Load(content);
+    documents = YAML::LoadAll(content);
   } catch (const YAML::Exception& error) {
     reader.Fail(error.mark.line + 1, "malformed YAML: " + error.msg);
   }
+  if (documents.size() > 1) {
+    reader.Fail(documents[1].Mark().line + 1,
+                "a second document begins after '---'; write all options in one");
+  }
+  const YAML::Node root = documents.empty() ? YAML::Node() : documents[0];
   if (!root.IsMap() && !root.IsNull()) reader.Fail(1, "expected 'name: value' lines");
   configuration->camera.origin = path;
   reader.ReadSection(root, "");

@@ -24,7 +24,8 @@ struct Value {
 
 using Values = std::map<std::string, Value>;
 
-Values ReadValues(const std::string& content) {
+// The values by name; the first one of a name. Adds the lines that repeat a name to `repeated`.
+Values ReadValues(const std::string& content, Values* repeated = nullptr) {
   Values values;
   std::istringstream lines(content);
   std::string line;
@@ -32,7 +33,9 @@ Values ReadValues(const std::string& content) {
     line.resize(std::min(line.size(), line.find('#')));
     const size_t colon = line.find(':');
     if (colon == std::string::npos) continue;
-    values[Trimmed(line.substr(0, colon))] = {Trimmed(line.substr(colon + 1)), number};
+    const std::string name = Trimmed(line.substr(0, colon));
+    const Value value{Trimmed(line.substr(colon + 1)), number};
+    if (!values.emplace(name, value).second && repeated != nullptr) repeated->emplace(name, value);
   }
   return values;
 }
@@ -100,7 +103,13 @@ bool IsOrbSlamConfig(const std::string& content) {
 }
 
 CameraSettings ReadOrbSlamConfig(const std::string& path) {
-  const Values values = ReadValues(ReadText(path, kMaxOptionsBytes));
+  Values repeated;
+  const Values values = ReadValues(ReadText(path, kMaxOptionsBytes), &repeated);
+  for (const Values::value_type& entry : repeated) {
+    const bool is_read = entry.first.rfind("Camera", 0) == 0 || entry.first == "DepthMapFactor" ||
+                         entry.first == "RGBD.DepthMapFactor";
+    if (is_read) Fail(path, entry, " is given twice; remove one line");
+  }
   // The first of the names that the file contains, with its value; null if it contains none.
   const auto find_entry =
       [&](std::initializer_list<const char*> names) -> const Values::value_type* {

@@ -194,6 +194,7 @@ TEST_F(OptionsFileTest, RefusesMalformedFiles) {
   EXPECT_THAT(ErrorOf("mode: pl-vo\nmode: pl-vo\n"), Names("options.yaml:2", "mode", "twice"));
   EXPECT_THAT(ErrorOf("mode: pl-vo\n  x: [1\n"), Names("options.yaml:2", "malformed"));
   EXPECT_THAT(ErrorOf("- 1\n- 2\n"), Names("options.yaml:1", "name: value"));
+  EXPECT_THAT(ErrorOf("mode: pl-vo\n---\nfoo: 1\n"), Names("options.yaml:3", "second document"));
 }
 
 TEST_F(OptionsFileTest, RefusesTooLargeAndEndlessFiles) {
@@ -212,6 +213,13 @@ TEST_F(OptionsFileTest, ReadsTheCameraOfOrbSlamSettings) {
       "DepthMapFactor: 5000\nViewer.PointSize:2\nORBextractor.nFeatures: 1000\n");
   EXPECT_EQ(*configuration.camera.fx, 517.0);
   EXPECT_EQ(configuration.camera.origin, Path("options.yaml"));
+  const std::string camera =
+      "Camera.fx: 517\nCamera.fy: 516\nCamera.cx: 318\nCamera.cy: 255\nDepthMapFactor: 5000\n";
+  EXPECT_THAT(ErrorOf(camera + "Camera.fx: 481\n"), Names("options.yaml:6", "Camera.fx", "twice"));
+  // Entries of matrices have the same names.
+  EXPECT_EQ(*Read(camera + "Tbc: !!opencv-matrix\n  rows: 4\nTlr: !!opencv-matrix\n  rows: 3\n")
+                 .camera.fx,
+            517.0);
 }
 
 }  // namespace
