@@ -20,6 +20,7 @@ foreach(component ${components})
   if(sources)
     add_library(${component}_headers OBJECT ${sources})
     msc_vo_compile_options(${component}_headers)
+    set_target_properties(${component}_headers PROPERTIES UNITY_BUILD OFF)  # each header alone
     target_link_libraries(${component}_headers PRIVATE msc_vo::${component})
   endif()
 endforeach()

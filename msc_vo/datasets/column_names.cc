@@ -242,7 +242,8 @@ class ColumnAssignment {
     if (quantity == Quantity::kOther || (quantity == Quantity::kPosition && axis == 3)) return;
     Components& components = quantity == Quantity::kPosition ? position_ : quaternion_;
     if (!components[axis]) components[axis] = index;
-    if (quantity == Quantity::kPosition) metres_ = MetresFromName(unit);
+    // A unit may be named once: "x [mm], y, z".
+    if (quantity == Quantity::kPosition && !unit.empty()) metres_ = MetresFromName(unit);
   }
 
   void AddTime(const Words& words, const std::string& unit, size_t index) {

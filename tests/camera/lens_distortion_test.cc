@@ -5,15 +5,12 @@
 
 #include <algorithm>
 
+#include "tests/camera/freiburg1.h"
 #include "tests/support/eigen_matchers.h"
 #include <gmock/gmock.h>
 
 namespace msc_vo {
 namespace {
-
-// Published calibration of TUM RGB-D freiburg1.
-const PinholeCamera kFreiburg1{517.306408, 516.469215, 318.643040, 255.313989, 640, 480};
-const LensDistortion kFreiburg1Lens{{0.262383, -0.953104, -0.005358, 0.002628, 1.163314}};
 
 TEST(LensDistortion, ZeroDistortionIsIdentity) {
   const LensDistortion none;

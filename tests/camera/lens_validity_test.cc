@@ -7,15 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "tests/camera/freiburg1.h"
 #include "tests/support/message_matchers.h"
 #include <gmock/gmock.h>
 
 namespace msc_vo {
 namespace {
 
-// Intrinsics of TUM RGB-D freiburg1: the farthest corner has radius 0.8 on the plane z = 1.
-const PinholeCamera kFreiburg1{517.306408, 516.469215, 318.643040, 255.313989, 640, 480};
-
+// The farthest corner of freiburg1 has radius 0.8 on the plane z = 1.
 std::string Problem(const LensDistortion& lens, const PinholeCamera& camera = kFreiburg1) {
   std::string error;
   return IsInvertible(lens, camera, &error) ? "" : error;
@@ -23,7 +22,7 @@ std::string Problem(const LensDistortion& lens, const PinholeCamera& camera = kF
 
 TEST(IsInvertible, AcceptsRealLenses) {
   EXPECT_EQ(Problem({}), "");
-  EXPECT_EQ(Problem({{0.262383, -0.953104, -0.005358, 0.002628, 1.163314}}), "");  // freiburg1
+  EXPECT_EQ(Problem(kFreiburg1Lens), "");
   EXPECT_EQ(Problem({{0.231222, -0.784899, -0.003257, -0.000105, 0.917205}}), "");
   EXPECT_EQ(Problem({{-0.28340811, 0.07395907, 0.00019359, 1.76187114e-05, 0.0}},
                     {458.654, 457.296, 367.215, 248.375, 752, 480}),

@@ -77,6 +77,7 @@ TEST_F(TrajectoryFormatTest, HeadersDecideTheColumns) {
       "secs,nsecs,px,py,pz,qx,qy,qz,qw\n1403636580,838000000,1,2,3," + xyzw,
       "timestamp [ms] x [mm] y [mm] z [mm] qx qy qz qw\n1403636580838 1000 2000 3000 0 0 " + q +
           " " + q,
+      "timestamp [ms] x [mm] y z qx qy qz qw\n1403636580838 1000 2000 3000 0 0 " + q + " " + q,
       // A number in front of the row that the header does not name.
       "timestamp tx ty tz qx qy qz qw\n0 1403636580.838 1 2 3 0 0 " + q + " " + q + "\n",
       // Words in front of the names.

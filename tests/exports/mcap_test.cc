@@ -31,7 +31,7 @@ void AddHeader(uint32_t seconds, uint32_t nanoseconds, const std::string& frame,
   bytes->Add(seconds).Add(nanoseconds).AddText(frame);
 }
 
-// The begin of an array with one marker of a type, at the time of Frame(), up to its scale.
+// The begin of an array with one marker of a type, at the time of TurnedFrame(), up to its scale.
 MessageBytes MarkerArray(const std::string& name, int32_t type) {
   MessageBytes bytes = Cdr();
   bytes.Add(uint32_t{1});
@@ -51,7 +51,7 @@ void EndMarker(MessageBytes* bytes) {
 
 // A camera that has walked 3 m forward, 1 m to the right and 2 m down, and turned right by 90
 // degrees. In the odometry it has not turned.
-McapFrame Frame() {
+McapFrame TurnedFrame() {
   McapFrame frame;
   frame.nanoseconds = 1305031102'175304000;
   frame.world_from_cam = {Eigen::Quaterniond(Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitY())),
@@ -81,7 +81,7 @@ Numbers Last36(const std::string& message, size_t num_after = 0) {
 
 TEST_F(McapExportTest, HasPosesAndTransforms) {
   McapRun run;
-  run.frames = {Frame()};
+  run.frames = {TurnedFrame()};
   const auto bag = Export(run);
   ASSERT_NE(bag->FindTopic("/tf"), nullptr);
   EXPECT_EQ(bag->FindTopic("/tf")->type, "tf2_msgs/TFMessage");
@@ -114,7 +114,7 @@ TEST_F(McapExportTest, HasPosesAndTransforms) {
 // Order x y z rx ry rz about the fixed axes of the header's frame.
 TEST_F(McapExportTest, HasCovariancesInTheFrameOfTheHeader) {
   McapRun run;
-  run.frames = {Frame()};
+  run.frames = {TurnedFrame()};
   const auto bag = Export(run);
   const auto diagonal = [](const Numbers& matrix) {
     Numbers values;
@@ -136,14 +136,14 @@ TEST_F(McapExportTest, HasCovariancesInTheFrameOfTheHeader) {
 }
 
 TEST_F(McapExportTest, HasVelocitiesOfTheCamera) {
-  McapFrame after = Frame();
+  McapFrame after = TurnedFrame();
   after.nanoseconds += 500'000'000;
   // A quarter turn to the right, and a step to the right of 1 m before it: backwards to the left
   // after it.
   after.odom_from_cam = {Eigen::Quaterniond(Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitY())),
                          {2.0, 2.0, 3.0}};
   McapRun run;
-  run.frames = {Frame(), after};
+  run.frames = {TurnedFrame(), after};
   const std::string odometry = Export(run)->Read("/msc_vo/odometry", 1);
   Numbers twist(6);
   std::memcpy(twist.data(), odometry.data() + odometry.size() - 42 * 8, 48);
@@ -154,7 +154,7 @@ TEST_F(McapExportTest, HasVelocitiesOfTheCamera) {
 
 TEST_F(McapExportTest, HasTheMap) {
   McapRun run;
-  run.frames = {Frame()};
+  run.frames = {TurnedFrame()};
   run.points = {{{1.0, 2.0, 3.0}, 7}};
   run.lines = {{{{1.0, 2.0, 3.0}, {0.0, 0.0, 1.0}}, {255, 0, 51}}};
   const auto bag = Export(run);
@@ -183,7 +183,7 @@ TEST_F(McapExportTest, HasTheMap) {
 
 TEST_F(McapExportTest, HasPlanesAsTriangles) {
   McapRun run;
-  run.frames = {Frame()};
+  run.frames = {TurnedFrame()};
   EXPECT_EQ(Export(run)->FindTopic("/msc_vo/map_planes"), nullptr);
   run.planes = {{{{1.0, 2.0, 3.0}, {0.0, 2.0, 3.0}, {0.0, 0.0, 3.0}}, {255, 0, 51}}};
   const auto bag = Export(run);
@@ -203,7 +203,7 @@ TEST_F(McapExportTest, HasImagesAsTheyAre) {
   const std::string png = "\x89PNG and the rest";
   WriteText("a.png", png);
   McapRun run;
-  run.frames = {Frame()};
+  run.frames = {TurnedFrame()};
   run.frames[0].image = Path("a.png");
   run.camera.distortion.k = {0.1, 0.2, 0.3, 0.4, 0.5};
   const auto bag = Export(run);

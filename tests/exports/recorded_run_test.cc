@@ -32,7 +32,7 @@ class RecordedRunTest : public TemporaryFolder {
   }
 };
 
-FrameResult Frame() {
+FrameResult WrittenFrame() {
   FrameResult frame;
   frame.timestamp = 1305031102.175304;
   frame.status = TrackingStatus::kTracked;
@@ -49,14 +49,15 @@ FrameResult Frame() {
 TEST_F(RecordedRunTest, HasPoseAndCovarianceOfEachFrame) {
   FrameResult lost;
   lost.timestamp = 1305031103.0;
-  WriteText("frames.csv", FormatFramesCsv({Frame(), lost}));
+  WriteText("frames.csv", FormatFramesCsv({WrittenFrame(), lost}));
   const auto frames = ReadFramesCsv(Path("frames.csv"));
   ASSERT_EQ(frames.size(), 2u);
   const RecordedFrame& frame = frames.at(1305031102175304);
   ASSERT_TRUE(frame.world_covariance && frame.odometry_covariance);
-  EXPECT_TRUE(frame.world_covariance->isApprox(*Frame().world_covariance, 1e-8));
-  EXPECT_TRUE(frame.odometry_covariance->isApprox(*Frame().odometry_covariance, 1e-8));
-  EXPECT_LT((frame.odom_from_cam.params - Frame().cam_from_odometry.Inverse().params).norm(), 1e-8);
+  EXPECT_TRUE(frame.world_covariance->isApprox(*WrittenFrame().world_covariance, 1e-8));
+  EXPECT_TRUE(frame.odometry_covariance->isApprox(*WrittenFrame().odometry_covariance, 1e-8));
+  EXPECT_LT((frame.odom_from_cam.params - WrittenFrame().cam_from_odometry.Inverse().params).norm(),
+            1e-8);
   EXPECT_FALSE(frames.at(1305031103000000).world_covariance);
   EXPECT_FALSE(frames.at(1305031103000000).odometry_covariance);
 }
@@ -64,7 +65,7 @@ TEST_F(RecordedRunTest, HasPoseAndCovarianceOfEachFrame) {
 TEST_F(RecordedRunTest, NamesFileLineAndFix) {
   EXPECT_THAT(ErrorOf(""), Names("frames.csv:1"));
   EXPECT_THAT(ErrorOf("time,status\n1,tracked\n"), Names("frames.csv:1", "odom_qx", "again"));
-  std::string text = FormatFramesCsv({Frame()});
+  std::string text = FormatFramesCsv({WrittenFrame()});
   EXPECT_THAT(ErrorOf(text.substr(0, text.size() - 40) + "\n"), Names("frames.csv:2", "columns"));
   text.replace(text.find("1305031102"), 10, "1305O31102");
   EXPECT_THAT(ErrorOf(text), Names("frames.csv:2", "1305O31102.175304", "time"));

@@ -25,7 +25,7 @@ inline SensorCorrection::Vector AnyCorrection(RandomGeometry* random) {
 }
 
 /// A correction as a parameter block.
-inline std::vector<double> Block(const SensorCorrection::Vector& correction) {
+inline std::vector<double> CorrectionBlock(const SensorCorrection::Vector& correction) {
   return {correction.data(), correction.data() + correction.size()};
 }
 

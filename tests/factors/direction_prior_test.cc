@@ -3,15 +3,10 @@
 
 #include "msc_vo/factors/direction_prior.h"
 
-#include "tests/support/factor_checks.h"
-#include <ceres/sphere_manifold.h>
+#include "tests/factors/direction_block.h"
 
 namespace msc_vo {
 namespace {
-
-const ceres::SphereManifold<3> kSphere;
-
-Eigen::Vector3d AnyDirection(RandomGeometry* random) { return random->Normal3().normalized(); }
 
 TEST(DirectionPrior, IsZeroAtTheMean) {
   RandomGeometry random(1);

@@ -3,16 +3,10 @@
 
 #include "msc_vo/factors/gravity_direction.h"
 
-#include "tests/support/factor_checks.h"
-#include <ceres/sphere_manifold.h>
+#include "tests/factors/direction_block.h"
 
 namespace msc_vo {
 namespace {
-
-const ceres::SphereManifold<3> kSphere;
-const Eigen::VectorXd kZero = Eigen::VectorXd::Zero(2);
-
-Eigen::Vector3d AnyDirection(RandomGeometry* random) { return random->Normal3().normalized(); }
 
 Eigen::Vector3d InCamera(const Rigid3& cam_from_world, const Eigen::Vector3d& direction) {
   return cam_from_world.rotation() * direction;
@@ -24,7 +18,7 @@ TEST(GravityDirection, IsZeroAtTheTruth) {
   const Eigen::Vector3d up = AnyDirection(&random);
   // The length of the measurement does not matter.
   const CostPtr cost(GravityDirection::Create(9.81 * InCamera(pose, up), 0.01));
-  EXPECT_THAT(Residual(*cost, {Block(pose), Block(up)}), IsNear(kZero, 1e-12));
+  EXPECT_THAT(Residual(*cost, {Block(pose), Block(up)}), IsNear(Eigen::Vector2d::Zero(), 1e-12));
 }
 
 TEST(GravityDirection, MatchesValueByHand) {

@@ -10,7 +10,9 @@
 namespace msc_vo {
 namespace {
 
-std::vector<double> Block(const Eigen::Quaterniond& q) { return {q.x(), q.y(), q.z(), q.w()}; }
+std::vector<double> RotationBlock(const Eigen::Quaterniond& q) {
+  return {q.x(), q.y(), q.z(), q.w()};
+}
 Eigen::Quaterniond AnyRotation(RandomGeometry* random) { return random->Pose().rotation(); }
 
 TEST(ManhattanRotation, IsZeroAlongItsAxisInEitherDirection) {
@@ -19,8 +21,9 @@ TEST(ManhattanRotation, IsZeroAlongItsAxisInEitherDirection) {
     const Eigen::Quaterniond q = AnyRotation(&random);
     const Eigen::Vector3d d = q * Eigen::Vector3d::Unit(axis);
     for (const Eigen::Vector3d& direction : {d, Eigen::Vector3d(-d)}) {
-      EXPECT_THAT(Residual(*CostPtr(ManhattanRotation::Create(direction, axis, 0.01)), {Block(q)}),
-                  IsNear(Eigen::Vector2d::Zero(), 1e-12));
+      EXPECT_THAT(
+          Residual(*CostPtr(ManhattanRotation::Create(direction, axis, 0.01)), {RotationBlock(q)}),
+          IsNear(Eigen::Vector2d::Zero(), 1e-12));
     }
   }
 }
@@ -31,7 +34,7 @@ TEST(ManhattanRotation, MatchesValueByHand) {
   const Eigen::Vector3d tilted = (d + n.cross(d)).normalized();
   const auto residual = [&](int axis) {
     return Residual(*CostPtr(ManhattanRotation::Create(tilted, n, axis, 0.1, 0.01)),
-                    {Block(Eigen::Quaterniond::Identity())});
+                    {RotationBlock(Eigen::Quaterniond::Identity())});
   };
   const double s = 10.0 / std::sqrt(2.0);
   EXPECT_THAT(residual(0), IsNear(Eigen::Vector2d(-0.6 * s, 80.0), 1e-12));
@@ -44,7 +47,7 @@ TEST(ManhattanRotation, MatchesThePapersParallelAndPerpendicularErrors) {
   const Eigen::Quaterniond q = AnyRotation(&random);
   const Eigen::Vector3d d = random.Normal3().normalized();
   const Eigen::VectorXd r =
-      0.01 * Residual(*CostPtr(ManhattanRotation::Create(d, 1, 0.01)), {Block(q)});
+      0.01 * Residual(*CostPtr(ManhattanRotation::Create(d, 1, 0.01)), {RotationBlock(q)});
   EXPECT_NEAR(r.norm(),
               std::hypot(d.dot(q * Eigen::Vector3d::UnitZ()), d.dot(q * Eigen::Vector3d::UnitX())),
               1e-12);
@@ -62,7 +65,7 @@ TEST(ManhattanRotation, DerivativesMatchEverywhereAndAlongEveryAxis) {
       directions.push_back(-directions.back());
     }
     for (const Eigen::Vector3d& d : directions) {
-      ExpectGradientsMatch(*CostPtr(ManhattanRotation::Create(d, axis, 0.01)), {Block(q)},
+      ExpectGradientsMatch(*CostPtr(ManhattanRotation::Create(d, axis, 0.01)), {RotationBlock(q)},
                            &manifold);
     }
   }
@@ -72,7 +75,8 @@ TEST(ManhattanRotation, DoesNotConstrainRotationAboutItsOwnAxis) {
   RandomGeometry random(4);
   const Eigen::Quaterniond q = AnyRotation(&random);
   const Eigen::Vector3d m = q * Eigen::Vector3d::UnitX();
-  const Linearization at = Linearize(*CostPtr(ManhattanRotation::Create(m, 0, 0.01)), {Block(q)});
+  const Linearization at =
+      Linearize(*CostPtr(ManhattanRotation::Create(m, 0, 0.01)), {RotationBlock(q)});
   Eigen::Matrix<double, 4, 3, Eigen::RowMajor> plus;
   Rotation3Manifold().PlusJacobian(q.coeffs().data(), plus.data());
   const Eigen::MatrixXd j = at.jacobians[0] * plus;
@@ -87,8 +91,9 @@ TEST(ManhattanRotation, IsInvariantToRotationOfTheWorld) {
   const Eigen::Vector3d n = d.unitOrthogonal();
   EXPECT_THAT(
       Residual(*CostPtr(ManhattanRotation::Create(turn * d, turn * n, 2, 0.1, 0.01)),
-               {Block(turn * q)}),
-      IsNear(Residual(*CostPtr(ManhattanRotation::Create(d, n, 2, 0.1, 0.01)), {Block(q)}), 1e-10));
+               {RotationBlock(turn * q)}),
+      IsNear(Residual(*CostPtr(ManhattanRotation::Create(d, n, 2, 0.1, 0.01)), {RotationBlock(q)}),
+             1e-10));
 }
 
 TEST(ManhattanRotation, HasUnitCovarianceUnderItsNoise) {
@@ -99,7 +104,8 @@ TEST(ManhattanRotation, HasUnitCovarianceUnderItsNoise) {
   for (int i = 0; i < 4000; ++i) {
     const Eigen::Vector3d d =
         ExpSO3(sigma * random.Normal3()) * (q * Eigen::Vector3d::UnitZ()).eval();
-    samples.push_back(Residual(*CostPtr(ManhattanRotation::Create(d, 2, sigma)), {Block(q)}));
+    samples.push_back(
+        Residual(*CostPtr(ManhattanRotation::Create(d, 2, sigma)), {RotationBlock(q)}));
   }
   ExpectIdentityCovariance(samples);
 }

@@ -10,8 +10,6 @@
 namespace msc_vo {
 namespace {
 
-const PlaneManifold kManifold;
-
 TEST(PlaneAxisAlignment, IsZeroOnTheAxisForBothSides) {
   RandomGeometry random(1);
   for (int i = 0; i < 10; ++i) {
@@ -47,8 +45,8 @@ TEST(PlaneAxisAlignment, DerivativesMatch) {
     const Eigen::Vector3d axis = random.Normal3().normalized();
     const CostPtr cost(PlaneAxisAlignment::Create(axis, 0.05));
     const Plane tilted(random.Normal3().normalized(), random.Normal());
-    ExpectGradientsMatch(*cost, {Block(tilted)}, &kManifold);
-    ExpectGradientsMatch(*cost, {Block(Plane(-axis, 1.0))}, &kManifold);
+    ExpectGradientsMatch(*cost, {Block(tilted)}, &kPlaneManifold);
+    ExpectGradientsMatch(*cost, {Block(Plane(-axis, 1.0))}, &kPlaneManifold);
   }
 }
 

@@ -7,9 +7,13 @@
 
 #include "tests/support/factor_checks.h"
 
+#include "msc_vo/factors/plane_manifold.h"
 #include "msc_vo/geometry/plane.h"
 
 namespace msc_vo {
+
+// Of a plane as a parameter block.
+inline const PlaneManifold kPlaneManifold;
 
 inline std::vector<double> Block(const Plane& plane) {
   return {plane.params.data(), plane.params.data() + 4};

@@ -10,7 +10,6 @@
 namespace msc_vo {
 namespace {
 
-const PlaneManifold kManifold;
 const Eigen::Matrix3d kCovariance =
     (Eigen::Matrix3d() << 4e-5, 1e-5, -5e-6, 1e-5, 3e-5, 2e-6, -5e-6, 2e-6, 2e-5).finished();
 
@@ -67,7 +66,7 @@ TEST(PlaneObservation, DerivativesMatch) {
     const Rigid3 pose = random.Pose();
     const Plane plane = pose.Inverse() * InView(&random);
     ExpectGradientsMatch(*CostPtr(PlaneObservation::Create(0.3 * random.Normal3(), kCovariance)),
-                         {Block(pose), Block(plane)}, &kManifold);
+                         {Block(pose), Block(plane)}, &kPlaneManifold);
   }
 }
 

@@ -10,8 +10,6 @@
 namespace msc_vo {
 namespace {
 
-const PlaneManifold kManifold;
-
 TEST(PlanePair, IsZeroAtTheRelationAtAnyDistance) {
   RandomGeometry random(1);
   const CostPtr parallel(ParallelPlanes::Create(0.01));
@@ -59,9 +57,9 @@ TEST(PlanePair, DerivativesMatch) {
     const Plane a = RandomPlane(&random), b = RandomPlane(&random);
     const Plane across(a.normal().unitOrthogonal(), 0.5);
     for (const CostPtr* cost : {&parallel, &perpendicular}) {
-      ExpectGradientsMatch(**cost, {Block(a), Block(b)}, &kManifold);
-      ExpectGradientsMatch(**cost, {Block(a), Block(a)}, &kManifold);
-      ExpectGradientsMatch(**cost, {Block(a), Block(across)}, &kManifold);
+      ExpectGradientsMatch(**cost, {Block(a), Block(b)}, &kPlaneManifold);
+      ExpectGradientsMatch(**cost, {Block(a), Block(a)}, &kPlaneManifold);
+      ExpectGradientsMatch(**cost, {Block(a), Block(across)}, &kPlaneManifold);
     }
   }
 }

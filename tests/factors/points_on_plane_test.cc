@@ -13,8 +13,6 @@
 namespace msc_vo {
 namespace {
 
-const PlaneManifold kManifold;
-
 // The point of the plane that is nearest to x.
 Eigen::Vector3d Foot(const Plane& plane, const Eigen::Vector3d& x) {
   return x - (plane.normal().dot(x) + plane.offset()) * plane.normal();
@@ -58,7 +56,7 @@ TEST(PointsOnPlane, DoNotDependOnMotionOfTheWorld) {
 TEST(PointsOnPlane, DerivativesMatch) {
   RandomGeometry random(3);
   const auto deviation = [](const CostPtr& cost, const Blocks& blocks) {
-    return CheckJacobians(*cost, blocks, {nullptr, &kManifold}).deviation;
+    return CheckJacobians(*cost, blocks, {nullptr, &kPlaneManifold}).deviation;
   };
   for (int i = 0; i < 5; ++i) {
     const Plane plane = RandomPlane(&random);

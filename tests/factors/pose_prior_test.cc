@@ -11,7 +11,7 @@ namespace {
 using Matrix6d = PosePrior::Matrix6d;
 
 // Full covariance with very different sigmas.
-Matrix6d AnyCovariance(RandomGeometry* random) {
+Matrix6d UnequalCovariance(RandomGeometry* random) {
   Matrix6d factor;
   for (int i = 0; i < 36; ++i) factor.data()[i] = random->Normal();
   for (int i = 0; i < 6; ++i) factor.row(i) *= 0.01 * (1 + i);
@@ -21,8 +21,9 @@ Matrix6d AnyCovariance(RandomGeometry* random) {
 TEST(PosePrior, IsZeroAtTheMean) {
   RandomGeometry random(1);
   const Rigid3 mean = random.Pose();
-  EXPECT_THAT(Residual(*CostPtr(PosePrior::Create(mean, AnyCovariance(&random))), {Block(mean)}),
-              IsNear(Eigen::VectorXd(Eigen::VectorXd::Zero(6)), 1e-9));
+  EXPECT_THAT(
+      Residual(*CostPtr(PosePrior::Create(mean, UnequalCovariance(&random))), {Block(mean)}),
+      IsNear(Eigen::VectorXd(Eigen::VectorXd::Zero(6)), 1e-9));
 }
 
 TEST(PosePrior, MatchesValueByHand) {
@@ -41,7 +42,7 @@ TEST(PosePrior, MatchesValueByHand) {
 TEST(PosePrior, SquareEqualsTheMahalanobisDistance) {
   RandomGeometry random(3);
   const Rigid3 mean = random.Pose();
-  const Matrix6d covariance = AnyCovariance(&random);
+  const Matrix6d covariance = UnequalCovariance(&random);
   Eigen::Matrix<double, 6, 1> d;
   d << 0.1, -0.2, 0.05, 0.3, 0.1, -0.4;
   const Eigen::VectorXd r = Residual(*CostPtr(PosePrior::Create(mean, covariance)),
@@ -52,7 +53,7 @@ TEST(PosePrior, SquareEqualsTheMahalanobisDistance) {
 
 TEST(PosePrior, DerivativesMatch) {
   RandomGeometry random(4);
-  Matrix6d covariance = AnyCovariance(&random) + 0.01 * Matrix6d::Identity();
+  Matrix6d covariance = UnequalCovariance(&random) + 0.01 * Matrix6d::Identity();
   for (const double distance : {0.0, 1e-3, 0.5, 2.0}) {
     const Rigid3 mean = random.Pose();
     const Eigen::Vector3d w = distance * random.Normal3().normalized(), u = random.Normal3();
@@ -62,7 +63,7 @@ TEST(PosePrior, DerivativesMatch) {
 
 TEST(PosePrior, TangentJacobianMatchesAutomaticDerivative) {
   RandomGeometry random(5);
-  const Matrix6d covariance = AnyCovariance(&random);
+  const Matrix6d covariance = UnequalCovariance(&random);
   for (const double distance : {0.0, 1e-7, 1e-3, 9e-3, 0.5, 3.0}) {
     const Rigid3 mean = random.Pose();
     const Rigid3 pose = Moved(mean, distance * random.Normal3().normalized(), random.Normal3());
@@ -78,7 +79,7 @@ TEST(PosePrior, TangentJacobianMatchesAutomaticDerivative) {
 TEST(PosePrior, HasUnitCovarianceUnderItsNoise) {
   RandomGeometry random(6);
   const Rigid3 mean = random.Pose();
-  const Matrix6d covariance = 0.01 * AnyCovariance(&random);
+  const Matrix6d covariance = 0.01 * UnequalCovariance(&random);
   const Matrix6d factor = covariance.llt().matrixL();
   const CostPtr cost(PosePrior::Create(mean, covariance));
   std::vector<Eigen::VectorXd> samples;

@@ -13,7 +13,7 @@ using Matrix6d = RelativePose::Matrix6d;
 const Eigen::VectorXd kZero = Eigen::VectorXd::Zero(6);
 
 // Full covariance with correlations between rotation and translation.
-Matrix6d AnyCovariance(RandomGeometry* random) {
+Matrix6d CorrelatedCovariance(RandomGeometry* random) {
   Matrix6d factor;
   for (int i = 0; i < 36; ++i) factor.data()[i] = 0.05 * random->Normal();
   return factor * factor.transpose() + 1e-3 * Matrix6d::Identity();
@@ -26,7 +26,7 @@ Rigid3 Scaled(const Rigid3& pose, double scale) {
 TEST(RelativePose, IsZeroAtTheTruth) {
   RandomGeometry random(1);
   const Rigid3 a = random.Pose(), b_from_a = random.Pose();
-  const CostPtr cost(RelativePose::Create(b_from_a, AnyCovariance(&random)));
+  const CostPtr cost(RelativePose::Create(b_from_a, CorrelatedCovariance(&random)));
   EXPECT_THAT(Residual(*cost, {Block(a), Block(b_from_a * a)}), IsNear(kZero, 1e-9));
 }
 
@@ -45,7 +45,7 @@ TEST(RelativePose, MatchesValueByHand) {
 TEST(RelativePose, DoesNotDependOnTheWorldFrame) {
   RandomGeometry random(2);
   const Rigid3 a = random.Pose(), b = random.Pose(), world = random.Pose();
-  const CostPtr cost(RelativePose::Create(random.Pose(), AnyCovariance(&random)));
+  const CostPtr cost(RelativePose::Create(random.Pose(), CorrelatedCovariance(&random)));
   EXPECT_THAT(Residual(*cost, {Block(a * world), Block(b * world)}),
               IsNear(Residual(*cost, {Block(a), Block(b)}), 1e-9));
 }
@@ -55,7 +55,7 @@ TEST(RelativePose, DerivativesMatch) {
   for (const double distance : {0.0, 1e-3, 0.5, 2.0}) {
     const Rigid3 a = random.Pose(), b_from_a = random.Pose();
     const Eigen::Vector3d w = distance * random.Normal3().normalized(), u = random.Normal3();
-    ExpectGradientsMatch(*CostPtr(RelativePose::Create(b_from_a, AnyCovariance(&random))),
+    ExpectGradientsMatch(*CostPtr(RelativePose::Create(b_from_a, CorrelatedCovariance(&random))),
                          {Block(a), Block(Moved(b_from_a * a, w, u))});
   }
 }
@@ -63,7 +63,7 @@ TEST(RelativePose, DerivativesMatch) {
 TEST(RelativePose, HasUnitCovarianceUnderItsNoise) {
   RandomGeometry random(4);
   const Rigid3 a = random.Pose(), b_from_a = random.Pose();
-  const Matrix6d covariance = 1e-3 * AnyCovariance(&random);
+  const Matrix6d covariance = 1e-3 * CorrelatedCovariance(&random);
   const Matrix6d factor = covariance.llt().matrixL();
   std::vector<Eigen::VectorXd> samples;
   for (int i = 0; i < 4000; ++i) {
@@ -79,7 +79,7 @@ TEST(RelativePose, HasUnitCovarianceUnderItsNoise) {
 TEST(ScaledRelativePose, WithUnitScaleEqualsRelativePose) {
   RandomGeometry random(5);
   const Rigid3 a = random.Pose(), b = random.Pose(), measured = random.Pose();
-  const Matrix6d covariance = AnyCovariance(&random);
+  const Matrix6d covariance = CorrelatedCovariance(&random);
   EXPECT_THAT(
       Residual(*CostPtr(ScaledRelativePose::Create(measured, covariance)),
                {Block(a), Block(b), {1.0}}),
@@ -91,7 +91,7 @@ TEST(ScaledRelativePose, IsZeroIfTheTranslationIsScaled) {
   RandomGeometry random(6);
   const Rigid3 a = random.Pose(), b_from_a = random.Pose();
   const CostPtr cost(
-      ScaledRelativePose::Create(Scaled(b_from_a, 1.0 / 1.2), AnyCovariance(&random)));
+      ScaledRelativePose::Create(Scaled(b_from_a, 1.0 / 1.2), CorrelatedCovariance(&random)));
   EXPECT_THAT(Residual(*cost, {Block(a), Block(b_from_a * a), {1.2}}), IsNear(kZero, 1e-9));
 }
 
@@ -100,7 +100,7 @@ TEST(ScaledRelativePose, DerivativesMatch) {
   for (const double scale : {0.0, 1.0, 1.3}) {
     const Rigid3 a = random.Pose(), b = random.Pose();
     ExpectGradientsMatch(
-        *CostPtr(ScaledRelativePose::Create(random.Pose(), AnyCovariance(&random))),
+        *CostPtr(ScaledRelativePose::Create(random.Pose(), CorrelatedCovariance(&random))),
         {Block(a), Block(b), {scale}});
   }
 }

@@ -32,8 +32,8 @@ RgbdPairReprojection::View ViewOf(const Eigen::Vector3d& x, const S::Vector& cor
   return view;
 }
 
-struct Example {
-  explicit Example(unsigned seed) : random(seed) {
+struct PairExample {
+  explicit PairExample(unsigned seed) : random(seed) {
     correction = AnyCorrection(&random);
     b_from_a = Rigid3(ExpSO3(0.2 * random.Normal3()), 0.2 * random.Normal3());
     const Eigen::Vector3d in_a{random.Uniform(-1.0, 1.0), random.Uniform(-0.7, 0.7), 3.0};
@@ -49,38 +49,40 @@ struct Example {
 
 TEST(RgbdPairReprojection, IsZeroAtTheTruth) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
-    const Example example(seed);
+    const PairExample example(seed);
     const CostPtr cost(RgbdPairReprojection::Create(kCorrectedCamera, example.a, example.b,
                                                     Eigen::Matrix3d::Identity()));
-    EXPECT_THAT(Residual(*cost, {Block(example.b_from_a), Block(example.correction)}),
+    EXPECT_THAT(Residual(*cost, {Block(example.b_from_a), CorrectionBlock(example.correction)}),
                 IsNear(Eigen::Vector3d::Zero(), 1e-6));
   }
 }
 
 TEST(RgbdPairReprojection, DependsOnEveryParameter) {
-  const Example example(6);
+  const PairExample example(6);
   const CostPtr cost(RgbdPairReprojection::Create(kCorrectedCamera, example.a, example.b,
                                                   Eigen::Matrix3d::Identity()));
-  const Linearization at = Linearize(*cost, {Block(example.b_from_a), Block(example.correction)});
+  const Linearization at =
+      Linearize(*cost, {Block(example.b_from_a), CorrectionBlock(example.correction)});
   for (int i = 0; i < S::kSize; ++i) EXPECT_GT(at.jacobians[1].col(i).norm(), 0.0) << i;
 }
 
 TEST(RgbdPairReprojection, DerivativesMatch) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
-    Example example(seed);
+    PairExample example(seed);
     const Eigen::Matrix3d weight = Eigen::Vector3d(2.0, 2.0, 250.0).asDiagonal();
     const CostPtr cost(
         RgbdPairReprojection::Create(kCorrectedCamera, example.a, example.b, weight));
-    ExpectGradientsMatch(*cost, {Block(example.b_from_a), Block(AnyCorrection(&example.random))});
+    ExpectGradientsMatch(
+        *cost, {Block(example.b_from_a), CorrectionBlock(AnyCorrection(&example.random))});
   }
 }
 
 TEST(RgbdPairReprojection, IsUndefinedBehindTheCamera) {
-  const Example example(7);
+  const PairExample example(7);
   const CostPtr cost(RgbdPairReprojection::Create(kCorrectedCamera, example.a, example.b,
                                                   Eigen::Matrix3d::Identity()));
   const Rigid3 behind(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0.0, 0.0, -5.0));
-  EXPECT_FALSE(IsDefined(*cost, {Block(behind), Block(example.correction)}));
+  EXPECT_FALSE(IsDefined(*cost, {Block(behind), CorrectionBlock(example.correction)}));
 }
 
 TEST(CorrectedCamera, RayIsTheInverseOfPixel) {

@@ -3,8 +3,8 @@
 
 #include "msc_vo/factors/rotation3_manifold.h"
 
+#include "tests/factors/manifold_invariants.h"
 #include "tests/support/factor_checks.h"
-#include <ceres/manifold_test_utils.h>
 
 namespace ceres {  // the macro below uses types without namespace
 namespace {

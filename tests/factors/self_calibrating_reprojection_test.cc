@@ -11,8 +11,8 @@ namespace {
 using S = SensorCorrection;
 
 // A point that a camera with a correction sees, as it measures it.
-struct Example {
-  explicit Example(unsigned seed) : random(seed) {
+struct PointExample {
+  explicit PointExample(unsigned seed) : random(seed) {
     correction = AnyCorrection(&random);
     cam_from_world = Rigid3(ExpSO3(0.2 * random.Normal3()), 0.2 * random.Normal3());
     const Eigen::Vector3d x{random.Uniform(-1.0, 1.0), random.Uniform(-0.7, 0.7), 3.0};
@@ -41,13 +41,13 @@ struct Example {
 
 TEST(SelfCalibratingReprojection, IsZeroAtTheTruth) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
-    const Example example(seed);
+    const PointExample example(seed);
     EXPECT_THAT(Residual(*example.Cost(), example.Blocks()), IsNear(Eigen::Vector3d::Zero(), 1e-9));
   }
 }
 
 TEST(SelfCalibratingReprojection, IsWhitened) {
-  Example example(6);
+  PointExample example(6);
   example.measurement.pixel += Eigen::Vector2d(0.5, -1.0);
   example.measurement.inverse_depth += 0.01;
   EXPECT_THAT(Residual(*example.Cost(), example.Blocks()),
@@ -55,7 +55,7 @@ TEST(SelfCalibratingReprojection, IsWhitened) {
 }
 
 TEST(SelfCalibratingReprojection, NeedsNoDepth) {
-  Example example(7);
+  PointExample example(7);
   example.measurement.inverse_depth = 0.0;
   example.point *= 1.1;
   EXPECT_EQ(Residual(*example.Cost(), example.Blocks())(2), 0.0);
@@ -63,7 +63,7 @@ TEST(SelfCalibratingReprojection, NeedsNoDepth) {
 
 TEST(SelfCalibratingReprojection, DerivativesMatch) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
-    Example example(seed);
+    PointExample example(seed);
     const CostPtr cost = example.Cost();
     example.correction = AnyCorrection(&example.random);
     ExpectGradientsMatch(*cost, example.Blocks());
@@ -71,7 +71,7 @@ TEST(SelfCalibratingReprojection, DerivativesMatch) {
 }
 
 TEST(SelfCalibratingReprojection, IsUndefinedBehindTheCamera) {
-  Example example(8);
+  PointExample example(8);
   example.cam_from_world = Rigid3(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0.0, 0.0, -9.0));
   EXPECT_FALSE(IsDefined(*example.Cost(), example.Blocks()));
 }

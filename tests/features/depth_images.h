@@ -14,6 +14,9 @@
 
 namespace msc_vo::testing {
 
+// A camera without a lens.
+inline const PinholeCamera kVgaCamera{480.0, 480.0, 319.5, 239.5, 640, 480};
+
 // Renders a depth image (CV_32FC1, metres) without lens distortion from a function of the pixel
 // that returns the inverse depth (1/metres; 0: no depth).
 template <typename Function>

@@ -14,16 +14,17 @@ namespace {
 
 using Eigen::Vector2d;
 
-const PinholeCamera kCamera{480.0, 480.0, 319.5, 239.5, 640, 480};
+using testing::kVgaCamera;
 
 // Inverse depths of two slanted walls.
-double Wall(const Vector2d& x) { return 0.5 + 0.0003 * (x.x() - 320.0); }
-double OtherWall(const Vector2d& x) { return 0.6 + 0.0002 * (x.y() - 240.0); }
+double FirstWall(const Vector2d& x) { return 0.5 + 0.0003 * (x.x() - 320.0); }
+double SecondWall(const Vector2d& x) { return 0.6 + 0.0002 * (x.y() - 240.0); }
 
 RgbdImage ImageOf(double (*wall)(const Vector2d&)) {
   RgbdImage image;
-  image.gray = testing::DrawQuadrilaterals(kCamera.width, kCamera.height, {0.0, 0.0}, 0.0, 2.0);
-  image.depth = testing::DrawDepth(kCamera, wall);
+  image.gray =
+      testing::DrawQuadrilaterals(kVgaCamera.width, kVgaCamera.height, {0.0, 0.0}, 0.0, 2.0);
+  image.depth = testing::DrawDepth(kVgaCamera, wall);
   return image;
 }
 
@@ -49,7 +50,7 @@ class DepthMeasurement : public ::testing::TestWithParam<double> {
   DepthMeasurement() {
     LensDistortion lens;
     lens.k[0] = GetParam();
-    builder_ = std::make_unique<FrameBuilder>(options_, kCamera, lens);
+    builder_ = std::make_unique<FrameBuilder>(options_, kVgaCamera, lens);
   }
 
   // The intrinsics of the frame with another registration.
@@ -64,8 +65,8 @@ class DepthMeasurement : public ::testing::TestWithParam<double> {
 };
 
 TEST_P(DepthMeasurement, IsThatOfAFrameWithTheOtherDepthImage) {
-  const Frame frame = builder_->Build(ImageOf(Wall));
-  const RgbdImage other = ImageOf(OtherWall);
+  const Frame frame = builder_->Build(ImageOf(FirstWall));
+  const RgbdImage other = ImageOf(SecondWall);
   const auto measured = MeasureDepthAgain(options_, other, frame, Registered(frame));
   ExpectSameDepths(*measured, builder_->Build(other), 1e-5);
 }
@@ -73,9 +74,9 @@ TEST_P(DepthMeasurement, IsThatOfAFrameWithTheOtherDepthImage) {
 TEST_P(DepthMeasurement, LooksWhereARollingShutterHasRecordedTheFeature) {
   const CameraVelocity velocity{{0.8, 0.5, 0.2}, {0.1, 0.0, 0.0}};
   const double readout_time = 0.02;
-  const RgbdImage other = ImageOf(OtherWall);
+  const RgbdImage other = ImageOf(SecondWall);
   const Frame frame =
-      CompensateRollingShutter(builder_->Build(ImageOf(Wall)), velocity, readout_time);
+      CompensateRollingShutter(builder_->Build(ImageOf(FirstWall)), velocity, readout_time);
   const auto measured = MeasureDepthAgain(options_, other, frame, Registered(frame));
   EXPECT_EQ(measured->readout_time, readout_time);
   ExpectSameDepths(*measured,

@@ -10,10 +10,11 @@ namespace {
 
 constexpr int kWidth = 320, kHeight = 240;  // cells of 10 x 10 pixels
 
-PinholeCamera Camera() { return {260.0, 260.0, 159.5, 119.5, kWidth, kHeight}; }
+PinholeCamera RangeCamera() { return {260.0, 260.0, 159.5, 119.5, kWidth, kHeight}; }
 
 DepthRanges RangesOf(const cv::Mat& depth, const LensDistortion& lens = LensDistortion()) {
-  return MakeDepthRanges(InverseDepthImage(depth, 0.2, 10.0), LensRemap(Camera(), lens), Camera());
+  return MakeDepthRanges(InverseDepthImage(depth, 0.2, 10.0), LensRemap(RangeCamera(), lens),
+                         RangeCamera());
 }
 
 TEST(MakeDepthRanges, ContainsTheDepthsOfACell) {

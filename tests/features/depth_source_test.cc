@@ -15,7 +15,7 @@
 namespace msc_vo {
 namespace {
 
-const PinholeCamera kCamera{480.0, 480.0, 319.5, 239.5, 640, 480};
+using testing::kVgaCamera;
 
 PointFeature PointAt(double x, double y, bool has_depth = true) {
   PointFeature point;
@@ -27,7 +27,7 @@ PointFeature PointAt(double x, double y, bool has_depth = true) {
 
 TEST(ShareDepthErrors, CountsTheErrorOfCloseFeaturesOnce) {
   Frame frame;
-  frame.camera = kCamera;
+  frame.camera = kVgaCamera;
   frame.points = {PointAt(100, 100), PointAt(103, 100), PointAt(100, 104), PointAt(300, 200),
                   PointAt(304, 200, false)};
   frame.grid = FeatureGrid(frame.camera, frame.points);
@@ -45,9 +45,9 @@ TEST(ShareDepthErrors, CountsTheErrorOfCloseFeaturesOnce) {
 
 // A wall at 2 m with the noise of the sensor along a line of 300 px.
 TEST(DepthSource, LinesCountCorrelatedNoiseOnce) {
-  const cv::Mat depth = testing::DrawDepth(kCamera, [](const Eigen::Vector2d&) { return 0.5; });
+  const cv::Mat depth = testing::DrawDepth(kVgaCamera, [](const Eigen::Vector2d&) { return 0.5; });
   const InverseDepthImage image(depth, 0.2, 10.0);
-  const LensRemap lens(kCamera, LensDistortion());
+  const LensRemap lens(kVgaCamera, LensDistortion());
   const LineSegment2 segment{{100.0, 200.0}, {400.0, 200.0}};
   DepthNoise noise = 0.003;
   const auto independent = [&](double length) {
@@ -63,13 +63,13 @@ TEST(DepthSource, LinesCountCorrelatedNoiseOnce) {
 
 TEST(DepthSource, RemovesTheBleedingOfStereo) {
   // A post 1 m away in front of a wall at 2 m, dark on bright. It extends by 4 px in the depth.
-  cv::Mat gray(kCamera.height, kCamera.width, CV_8UC1, cv::Scalar(200));
+  cv::Mat gray(kVgaCamera.height, kVgaCamera.width, CV_8UC1, cv::Scalar(200));
   gray.colRange(300, 340).setTo(50);
   const auto post = [](const Eigen::Vector2d& pixel) {
     return pixel.x() > 295.5 && pixel.x() < 343.5 ? 1.0 : 0.5;
   };
-  DepthSource source(DepthSensor::kStereo, SensorNoiseOptions(), 0.2, 10.0, kCamera.width);
-  cv::Mat depth = testing::DrawDepth(kCamera, post);
+  DepthSource source(DepthSensor::kStereo, SensorNoiseOptions(), 0.2, 10.0, kVgaCamera.width);
+  cv::Mat depth = testing::DrawDepth(kVgaCamera, post);
   depth.at<float>(204, 320) = std::numeric_limits<float>::quiet_NaN();
   depth.at<float>(204, 352) = 50.0f;  // out of range
   RgbdImage image;
@@ -84,14 +84,14 @@ TEST(DepthSource, TheImageAsRecordedTellsTheSensor) {
   // Noise of time of flight, which registration has smoothed.
   RgbdImage image;
   image.recorded_depth = testing::DrawDepth(
-      kCamera, [](const Eigen::Vector2d& pixel) { return 0.25 + 0.0008 * pixel.x(); });
+      kVgaCamera, [](const Eigen::Vector2d& pixel) { return 0.25 + 0.0008 * pixel.x(); });
   cv::Mat noise(image.recorded_depth.size(), CV_32FC1);
   cv::RNG(3).fill(noise, cv::RNG::NORMAL, 0.0, 0.006);
   image.recorded_depth += noise;
   cv::GaussianBlur(image.recorded_depth, image.depth, cv::Size(), 3.0);
   image.gray = cv::Mat(image.depth.size(), CV_8UC1, cv::Scalar(100));
   const auto sensor = [&] {
-    DepthSource source(DepthSensor::kAuto, SensorNoiseOptions(), 0.2, 10.0, kCamera.width);
+    DepthSource source(DepthSensor::kAuto, SensorNoiseOptions(), 0.2, 10.0, kVgaCamera.width);
     source.Assign(image);
     return source.sensor();
   };

@@ -17,9 +17,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kSigma = 1.425e-3;
+constexpr double kDepthSigma = 1.425e-3;
 
-PinholeCamera Camera() { return {480.0, 480.0, 159.5, 119.5, 320, 240}; }
+PinholeCamera NarrowCamera() { return {480.0, 480.0, 159.5, 119.5, 320, 240}; }
 
 // The segment used in all scenes; its direction is irrelevant here.
 LineSegment2 Segment() { return {Vector2d(60.0, 90.0), Vector2d(180.0, 140.0)}; }
@@ -29,37 +29,38 @@ double Below(const Vector2d& x) {
   return ImageLine(Segment()).dot(Eigen::Vector3d(x.x(), x.y(), 1));
 }
 
-double SlantedPlane(const Vector2d& x) { return 0.4 + 0.0012 * x.x() + 0.0008 * x.y(); }
+double FrontPlane(const Vector2d& x) { return 0.4 + 0.0012 * x.x() + 0.0008 * x.y(); }
 
 // The segment is the upper edge of a slanted plane in front of a wall 3.3 m away.
-double OccludingEdge(const Vector2d& x) { return Below(x) > 0.0 ? SlantedPlane(x) : 0.3; }
+double OccludingEdge(const Vector2d& x) { return Below(x) > 0.0 ? FrontPlane(x) : 0.3; }
 
 std::optional<LineDepth> Fit(const cv::Mat& depth, uint32_t seed = 1) {
-  const LensRemap lens(Camera(), LensDistortion());
-  return FitDepthAlongLine(InverseDepthImage(depth, 0.2, 10.0), lens, Segment(), kSigma, seed);
+  const LensRemap lens(NarrowCamera(), LensDistortion());
+  return FitDepthAlongLine(InverseDepthImage(depth, 0.2, 10.0), lens, Segment(), kDepthSigma, seed);
 }
 
 std::optional<LineDepth> FromEndPoints(const cv::Mat& depth) {
-  const LensRemap lens(Camera(), LensDistortion());
-  return EndPointDepth(InverseDepthImage(depth, 0.2, 10.0), lens, Segment(), kSigma);
+  const LensRemap lens(NarrowCamera(), LensDistortion());
+  return EndPointDepth(InverseDepthImage(depth, 0.2, 10.0), lens, Segment(), kDepthSigma);
 }
 
 // Largest error at the two end points relative to the slanted plane, in sigmas of a depth pixel.
 double ErrorInSigmas(const LineDepth& depth) {
-  return std::max(std::abs(depth.start - SlantedPlane(Segment().start)),
-                  std::abs(depth.end - SlantedPlane(Segment().end))) /
-         kSigma;
+  return std::max(std::abs(depth.start - FrontPlane(Segment().start)),
+                  std::abs(depth.end - FrontPlane(Segment().end))) /
+         kDepthSigma;
 }
 
 TEST(LineBackprojection, IsExactOnPlane) {
-  const auto depth = Fit(testing::DrawDepth(Camera(), SlantedPlane));
+  const auto depth = Fit(testing::DrawDepth(NarrowCamera(), FrontPlane));
   ASSERT_TRUE(depth);
   EXPECT_LT(ErrorInSigmas(*depth), 0.5);  // nearest pixels, no interpolation
   EXPECT_EQ(depth->inlier_ratio, 1.0);
-  const auto ends = FromEndPoints(testing::DrawDepth(Camera(), SlantedPlane));
+  const auto ends = FromEndPoints(testing::DrawDepth(NarrowCamera(), FrontPlane));
   ASSERT_TRUE(ends);
   EXPECT_LT(ErrorInSigmas(*ends), 0.5);
-  EXPECT_EQ(ends->covariance, Eigen::Matrix2d(Eigen::Matrix2d::Identity() * kSigma * kSigma));
+  EXPECT_EQ(ends->covariance,
+            Eigen::Matrix2d(Eigen::Matrix2d::Identity() * kDepthSigma * kDepthSigma));
 }
 
 TEST(LineBackprojection, IsUnbiasedAtFold) {
@@ -68,14 +69,14 @@ TEST(LineBackprojection, IsUnbiasedAtFold) {
     double sum = 0.0;
     const int trials = 40;
     for (int trial = 0; trial < trials; ++trial) {
-      cv::Mat scene = testing::DrawDepth(Camera(), [&](const Vector2d& x) {
-        return SlantedPlane(x) + slope * std::abs(Below(x));
+      cv::Mat scene = testing::DrawDepth(NarrowCamera(), [&](const Vector2d& x) {
+        return FrontPlane(x) + slope * std::abs(Below(x));
       });
-      testing::AddInverseDepthNoise(kSigma, 1.5, trial + 1, &scene);
+      testing::AddInverseDepthNoise(kDepthSigma, 1.5, trial + 1, &scene);
       const auto depth = Fit(scene, trial);
       ASSERT_TRUE(depth);
       const Vector2d middle = 0.5 * (Segment().start + Segment().end);
-      sum += depth->At(0.5) - SlantedPlane(middle);
+      sum += depth->At(0.5) - FrontPlane(middle);
     }
     // The error of the mean over the three middle pixels would be 0.7 slopes.
     EXPECT_LT(std::abs(sum / trials), 0.25 * std::abs(slope)) << slope;
@@ -83,14 +84,15 @@ TEST(LineBackprojection, IsUnbiasedAtFold) {
 }
 
 TEST(LineBackprojection, AssignsLineToOccludingSurface) {
-  const auto depth = Fit(testing::DrawDepth(Camera(), OccludingEdge));
+  const auto depth = Fit(testing::DrawDepth(NarrowCamera(), OccludingEdge));
   ASSERT_TRUE(depth);
   EXPECT_LT(ErrorInSigmas(*depth), 1.0);
   EXPECT_GT(depth->inlier_ratio, 0.9);
   // Also if colour and depth are misaligned, in either direction.
   for (const double offset : {-1.5, 1.5}) {
-    const auto misaligned = Fit(testing::DrawDepth(
-        Camera(), [&](const Vector2d& x) { return Below(x) > offset ? SlantedPlane(x) : 0.3; }));
+    const auto misaligned = Fit(testing::DrawDepth(NarrowCamera(), [&](const Vector2d& x) {
+      return Below(x) > offset ? FrontPlane(x) : 0.3;
+    }));
     ASSERT_TRUE(misaligned) << offset;
     EXPECT_LT(ErrorInSigmas(*misaligned), 2.0) << offset;
   }
@@ -98,26 +100,26 @@ TEST(LineBackprojection, AssignsLineToOccludingSurface) {
 
 TEST(LineBackprojection, InflatesCovarianceBesideNearerSurface) {
   // Three rows of pixels are missing at the edge, so the line is assigned to the wall behind it.
-  const auto depth = Fit(testing::DrawDepth(Camera(), [](const Vector2d& x) {
+  const auto depth = Fit(testing::DrawDepth(NarrowCamera(), [](const Vector2d& x) {
     return Below(x) > 0.0 && Below(x) < 3.0 ? 0.0 : OccludingEdge(x);
   }));
   ASSERT_TRUE(depth);
   EXPECT_NEAR(depth->At(0.5), 0.3, 0.01);
   const Vector2d half(0.5, 0.5);
-  const double gap = SlantedPlane(0.5 * (Segment().start + Segment().end)) - 0.3;
+  const double gap = FrontPlane(0.5 * (Segment().start + Segment().end)) - 0.3;
   EXPECT_NEAR(std::sqrt(half.dot(depth->covariance * half)), 0.5 * gap, 0.05 * gap);
 }
 
 TEST(LineBackprojection, IsRobustToNoiseMixedAndMissingPixels) {
   for (uint32_t seed = 0; seed < 10; ++seed) {
     std::mt19937 random(seed);
-    cv::Mat scene = testing::DrawDepth(Camera(), [&](const Vector2d& x) {
+    cv::Mat scene = testing::DrawDepth(NarrowCamera(), [&](const Vector2d& x) {
       const double mix = (random() % 1000) / 1000.0;
-      if (std::abs(Below(x)) < 1.0) return mix * SlantedPlane(x) + (1.0 - mix) * 0.3;
+      if (std::abs(Below(x)) < 1.0) return mix * FrontPlane(x) + (1.0 - mix) * 0.3;
       if (random() % 4 == 0) return 0.0;  // missing
       return OccludingEdge(x);
     });
-    testing::AddInverseDepthNoise(kSigma, 0.0, seed + 100, &scene);
+    testing::AddInverseDepthNoise(kDepthSigma, 0.0, seed + 100, &scene);
     const auto depth = Fit(scene, seed);
     ASSERT_TRUE(depth) << seed;
     EXPECT_LT(ErrorInSigmas(*depth), 4.0) << seed;
@@ -127,13 +129,13 @@ TEST(LineBackprojection, IsRobustToNoiseMixedAndMissingPixels) {
 TEST(LineBackprojection, IsRobustToPartialOcclusion) {
   // A post occludes a third of the line including an end point, which breaks EndPointDepth().
   const auto hidden = [](const Vector2d& x) {
-    return x.x() > 145.0 && x.x() < 190.0 ? 1.5 : SlantedPlane(x);
+    return x.x() > 145.0 && x.x() < 190.0 ? 1.5 : FrontPlane(x);
   };
-  const auto depth = Fit(testing::DrawDepth(Camera(), hidden));
+  const auto depth = Fit(testing::DrawDepth(NarrowCamera(), hidden));
   ASSERT_TRUE(depth);
   EXPECT_LT(ErrorInSigmas(*depth), 2.0);
   EXPECT_NEAR(depth->inlier_ratio, 0.7, 0.05);
-  const auto ends = FromEndPoints(testing::DrawDepth(Camera(), hidden));
+  const auto ends = FromEndPoints(testing::DrawDepth(NarrowCamera(), hidden));
   ASSERT_TRUE(ends);
   EXPECT_GT(ErrorInSigmas(*ends), 100.0);
 }
@@ -141,15 +143,15 @@ TEST(LineBackprojection, IsRobustToPartialOcclusion) {
 TEST(LineBackprojection, FitsDepthWithMissingSamples) {
   // Depth is missing along the last two fifths, where extrapolation increases sigma.
   const auto scene = testing::DrawDepth(
-      Camera(), [](const Vector2d& x) { return x.x() > 132.0 ? 0.0 : SlantedPlane(x); });
+      NarrowCamera(), [](const Vector2d& x) { return x.x() > 132.0 ? 0.0 : FrontPlane(x); });
   const auto depth = Fit(scene);
   ASSERT_TRUE(depth);
   // Without the error common to all samples, half a sigma.
   const auto own_sigma = [&](double s) {
-    return std::sqrt(std::pow(depth->SigmaAt(s), 2) - std::pow(0.5 * kSigma, 2));
+    return std::sqrt(std::pow(depth->SigmaAt(s), 2) - std::pow(0.5 * kDepthSigma, 2));
   };
   EXPECT_GT(own_sigma(1.0), 2.0 * own_sigma(0.0));
-  EXPECT_LT(std::abs(depth->end - SlantedPlane(Segment().end)), 3.0 * depth->SigmaAt(1.0));
+  EXPECT_LT(std::abs(depth->end - FrontPlane(Segment().end)), 3.0 * depth->SigmaAt(1.0));
   EXPECT_FALSE(FromEndPoints(scene));
 }
 
@@ -158,7 +160,7 @@ TEST(LineBackprojection, ReturnsNothingWithoutSurface) {
   EXPECT_FALSE(FromEndPoints(cv::Mat::zeros(240, 320, CV_32FC1)));
   std::mt19937 random(1);
   const auto noise = testing::DrawDepth(
-      Camera(), [&](const Vector2d&) { return 0.2 + (random() % 1000) / 500.0; });
+      NarrowCamera(), [&](const Vector2d&) { return 0.2 + (random() % 1000) / 500.0; });
   EXPECT_FALSE(Fit(noise));
 }
 
@@ -168,15 +170,15 @@ double MeanSquaredError(double blur) {
   const int trials = 150;
   double sum = 0.0;
   std::mt19937 random(1);
-  std::normal_distribution<double> common(0.0, 0.5 * kSigma);
+  std::normal_distribution<double> common(0.0, 0.5 * kDepthSigma);
   for (int trial = 0; trial < trials; ++trial) {
-    cv::Mat scene = testing::DrawDepth(Camera(), OccludingEdge);
-    testing::AddInverseDepthNoise(kSigma, blur, trial + 1, &scene);
+    cv::Mat scene = testing::DrawDepth(NarrowCamera(), OccludingEdge);
+    testing::AddInverseDepthNoise(kDepthSigma, blur, trial + 1, &scene);
     const auto depth = Fit(scene, trial);
     if (!depth) return 1e9;
     const double shift = common(random);
-    const Vector2d error(depth->start + shift - SlantedPlane(Segment().start),
-                         depth->end + shift - SlantedPlane(Segment().end));
+    const Vector2d error(depth->start + shift - FrontPlane(Segment().start),
+                         depth->end + shift - FrontPlane(Segment().end));
     sum += error.dot(depth->covariance.inverse() * error);
   }
   return sum / trials;
@@ -221,7 +223,8 @@ TEST(LineBackprojection, SamplesAlongDistortedLine) {
   });
   const cv::Mat raw = testing::DistortImage(camera, distortion, ideal, cv::INTER_NEAREST);
   const LensRemap lens(camera, distortion);
-  const auto depth = FitDepthAlongLine(InverseDepthImage(raw, 0.2, 10.0), lens, segment, kSigma, 1);
+  const auto depth =
+      FitDepthAlongLine(InverseDepthImage(raw, 0.2, 10.0), lens, segment, kDepthSigma, 1);
   ASSERT_TRUE(depth);
   EXPECT_GT(depth->inlier_ratio, 0.95);
   EXPECT_NEAR(depth->start, plane(segment.start), 1.5e-3);

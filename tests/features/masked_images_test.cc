@@ -17,17 +17,17 @@
 namespace msc_vo {
 namespace {
 
+using testing::kVgaCamera;
+
 constexpr double kPointRadius = 19.0;  // of a descriptor on level 0, pixels
 constexpr double kLineRadius = 36.0;   // half the width of a line's region
 
-PinholeCamera Camera() { return {480.0, 480.0, 319.5, 239.5, 640, 480}; }
-
-double Wall(const Eigen::Vector2d& /*pixel*/) { return 0.5; }
+double FrontalWall(const Eigen::Vector2d& /*pixel*/) { return 0.5; }
 
 RgbdImage Poster() {
   RgbdImage image;
   image.gray = testing::DrawQuadrilaterals(640, 480, {0.0, 0.0}, 0.0, 2.0);
-  image.depth = testing::DrawDepth(Camera(), Wall);
+  image.depth = testing::DrawDepth(kVgaCamera, FrontalWall);
   return image;
 }
 
@@ -59,7 +59,7 @@ void ExpectFarFromMask(const Frame& frame, const cv::Mat& distance) {
 
 TEST(MaskedImages, HaveNoFeatureNearTheMask) {
   RgbdImage image = Poster();
-  FrameBuilder builder(FrameBuilderOptions(), Camera(), LensDistortion());
+  FrameBuilder builder(FrameBuilderOptions(), kVgaCamera, LensDistortion());
   const cv::Mat distance = DistanceToMask(Mask());
   const Frame whole = builder.Build(image);
   int num_near = 0;
@@ -78,13 +78,13 @@ TEST(MaskedImages, KeepBothPartsOfALineBehindTheMask) {
   RgbdImage image;
   image.gray = cv::Mat(480, 640, CV_8UC1, cv::Scalar(60));
   image.gray(cv::Rect(0, 240, 640, 240)) = 180;  // one line from side to side
-  image.depth = testing::DrawDepth(Camera(), Wall);
+  image.depth = testing::DrawDepth(kVgaCamera, FrontalWall);
   image.mask = cv::Mat::zeros(480, 640, CV_8UC1);
   image.mask(cv::Rect(300, 200, 40, 80)) = 255;
   for (const LineDetector detector : {LineDetector::kEdgeDrawing, LineDetector::kLsd}) {
     FrameBuilderOptions options;
     options.lines.detector = detector;
-    const Frame frame = FrameBuilder(options, Camera(), LensDistortion()).Build(image);
+    const Frame frame = FrameBuilder(options, kVgaCamera, LensDistortion()).Build(image);
     ASSERT_EQ(frame.lines.size(), 2u);
     for (const LineFeature& line : frame.lines) {
       const double end = std::max(line.segment.start.x(), line.segment.end.x());
@@ -99,13 +99,13 @@ TEST(MaskedImages, AreUndistortedWithTheirMask) {
   RgbdImage image = Poster();
   image.mask = Mask();
   const LensDistortion lens{{-0.2, 0.05}};
-  FrameBuilder builder(FrameBuilderOptions(), Camera(), lens);
+  FrameBuilder builder(FrameBuilderOptions(), kVgaCamera, lens);
   const Frame frame = builder.Build(image);
   EXPECT_GT(frame.lines.size(), 10u);
   const cv::Mat distance = DistanceToMask(Mask());
   for (const LineFeature& line : frame.lines) {
     for (const double s : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-      const Eigen::Vector2d raw = lens.Distort(Camera(), line.segment.At(s));
+      const Eigen::Vector2d raw = lens.Distort(kVgaCamera, line.segment.At(s));
       EXPECT_GT(DistanceAt(distance, raw), 0.7 * kLineRadius);  // the lens shrinks distances
     }
   }
@@ -114,7 +114,7 @@ TEST(MaskedImages, AreUndistortedWithTheirMask) {
 TEST(MaskedImages, DoNotUseTheDepthOfTheMask) {
   RgbdImage image = Poster();
   image.mask = Mask();
-  FrameBuilder builder(FrameBuilderOptions(), Camera(), LensDistortion());
+  FrameBuilder builder(FrameBuilderOptions(), kVgaCamera, LensDistortion());
   const Frame frame = builder.Build(image);
   cv::Mat wrong = image.depth.clone();
   wrong.setTo(0.7f, image.mask);
@@ -135,7 +135,7 @@ TEST(MaskedImages, DoNotUseTheDepthOfTheMask) {
 
 TEST(MaskedImages, AreRefusedIfTheMaskDoesNotFit) {
   RgbdImage image = Poster();
-  FrameBuilder builder(FrameBuilderOptions(), Camera(), LensDistortion());
+  FrameBuilder builder(FrameBuilderOptions(), kVgaCamera, LensDistortion());
   image.mask = cv::Mat::zeros(240, 320, CV_8UC1);
   EXPECT_THROW(builder.Build(image), std::invalid_argument);
   image.mask = cv::Mat::zeros(480, 640, CV_32FC1);

@@ -24,16 +24,16 @@ using testing::AddInverseDepthNoise;
 using testing::DrawDepth;
 
 // The plane normal . x = -distance; the camera at the origin is on its positive side.
-struct Plane {
+struct VisiblePlane {
   Vector3d normal = -Vector3d::UnitZ();  // unit, towards the camera
   double distance = 2.0;                 // metres, to the camera
 };
 
-double InverseDepth(const PinholeCamera& camera, const Plane& plane, const Vector2d& pixel) {
+double InverseDepth(const PinholeCamera& camera, const VisiblePlane& plane, const Vector2d& pixel) {
   return std::max(0.0, -plane.normal.dot(camera.Ray(pixel)) / plane.distance);
 }
 
-cv::Mat Draw(const PinholeCamera& camera, const Plane& plane) {
+cv::Mat Draw(const PinholeCamera& camera, const VisiblePlane& plane) {
   return DrawDepth(camera,
                    [&](const Vector2d& pixel) { return InverseDepth(camera, plane, pixel); });
 }
@@ -47,7 +47,7 @@ double ErrorInDegrees(const SurfaceNormal& normal, const Vector3d& truth) {
       std::atan2(normal.direction.cross(truth).norm(), normal.direction.dot(truth)));
 }
 
-const Plane kTilted = {Vector3d(0.5, -0.4, -1.0).normalized(), 1.5};
+const VisiblePlane kTilted = {Vector3d(0.5, -0.4, -1.0).normalized(), 1.5};
 
 TEST(SurfaceNormals, AreExactThroughAWideLens) {
   PinholeCamera camera = WideCamera();
@@ -84,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(Fy, PlaneNormalsTest, ::testing::Values(525.0, -525.0))
 TEST(SurfaceNormals, SigmaIsConsistentWithNoise) {
   const PinholeCamera camera;
   for (const double distance : {1.0, 2.0, 4.0}) {
-    const Plane plane = {kTilted.normal, distance};
+    const VisiblePlane plane = {kTilted.normal, distance};
     cv::Mat depth = Draw(camera, plane);
     AddInverseDepthNoise(SurfaceNormalEstimator::kInverseDepthSigma, 1.5, 7, &depth);
     const auto normals = Estimate(camera, depth);
@@ -102,7 +102,7 @@ TEST(SurfaceNormals, SigmaIsConsistentWithNoise) {
 TEST(SurfaceNormals, WindowsGrowWithDepthToMeetTargetSigma) {
   const PinholeCamera camera;
   for (const double distance : {0.5, 1.0, 3.0, 6.0}) {
-    const Plane frontal = {-Vector3d::UnitZ(), distance};
+    const VisiblePlane frontal = {-Vector3d::UnitZ(), distance};
     const auto normals = Estimate(camera, Draw(camera, frontal));
     ASSERT_FALSE(normals.empty());
     constexpr double kTarget = SurfaceNormalEstimator::kTargetSigma;
@@ -175,7 +175,7 @@ TEST(SurfaceNormals, AreOmittedWithTooLittleDepth) {
 // A box half a metre in front of a wall: no window may contain both.
 TEST(SurfaceNormals, WindowsDoNotCrossDepthEdges) {
   const PinholeCamera camera;
-  const Plane box = {Vector3d(-0.3, 0.0, -1.0).normalized(), 1.2};
+  const VisiblePlane box = {Vector3d(-0.3, 0.0, -1.0).normalized(), 1.2};
   const cv::Mat depth = DrawDepth(camera, [&](const Vector2d& pixel) {
     const bool on_box = pixel.x() > 200 && pixel.x() < 400 && pixel.y() > 150 && pixel.y() < 300;
     return InverseDepth(camera, on_box ? box : kTilted, pixel);
@@ -231,7 +231,7 @@ TEST(SurfaceNormals, AreSortedByRowAndDeterministic) {
   AddInverseDepthNoise(1e-3, 1.0, 3, &depth);
   SurfaceNormalEstimator estimator({}, camera, {});
   const auto first = estimator.Estimate(depth);
-  estimator.Estimate(Draw(camera, Plane()));
+  estimator.Estimate(Draw(camera, VisiblePlane()));
   const auto again = estimator.Estimate(depth);
   ASSERT_EQ(first.size(), again.size());
   for (size_t i = 0; i < first.size(); ++i) {

@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "tests/geometry/alignment_truth.h"
 #include <gtest/gtest.h>
 
 #include "msc_vo/geometry/angles.h"
@@ -15,7 +16,6 @@ namespace {
 
 using Vec = Eigen::Vector3d;
 
-const Rigid3 kTruth(ExpSO3({0.9, -1.3, 0.4}), {1.0, -2.0, 3.0});
 const AlignmentTolerance kTolerance{DegreesToRadians(5.0), 0.02};
 
 // A horizontal and an upright edge that do not meet.

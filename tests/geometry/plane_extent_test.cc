@@ -18,7 +18,9 @@ using Eigen::Vector3d;
 const Plane kWall({0.0, 0.0, -1.0}, 2.0);  // z = 2, seen from the origin
 const PlaneExtent kPatch{{0.0, 0.0, 2.0}, {0.0, 1.0, 2.0}, {1.0, 1.0, 2.0}, {1.0, 0.0, 2.0}};
 
-PlaneExtent Moved(const Vector3d& offset) { return Rigid3({1.0, 0.0, 0.0, 0.0}, offset) * kPatch; }
+PlaneExtent MovedPatch(const Vector3d& offset) {
+  return Rigid3({1.0, 0.0, 0.0, 0.0}, offset) * kPatch;
+}
 
 // Twice the area, along the normal if the vertices are counter-clockwise.
 Vector3d AreaVector(const PlaneExtent& extent) {
@@ -47,9 +49,9 @@ TEST(PlaneExtent, HasABoundedNumberOfVertices) {
 }
 
 TEST(PlaneExtent, TouchesThatWithinTheGap) {
-  EXPECT_TRUE(AreTouching(kWall, kPatch, Moved({0.5, 0.5, 0.3}), 0.0));
-  EXPECT_TRUE(AreTouching(kWall, kPatch, Moved({1.2, 0.0, 0.0}), 0.25));
-  EXPECT_FALSE(AreTouching(kWall, kPatch, Moved({1.2, 0.0, 0.0}), 0.15));
+  EXPECT_TRUE(AreTouching(kWall, kPatch, MovedPatch({0.5, 0.5, 0.3}), 0.0));
+  EXPECT_TRUE(AreTouching(kWall, kPatch, MovedPatch({1.2, 0.0, 0.0}), 0.25));
+  EXPECT_FALSE(AreTouching(kWall, kPatch, MovedPatch({1.2, 0.0, 0.0}), 0.15));
   EXPECT_FALSE(AreTouching(kWall, kPatch, {}, 1.0));
 }
 

@@ -6,6 +6,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "tests/geometry/alignment_truth.h"
 #include "tests/support/eigen_matchers.h"
 #include <gtest/gtest.h>
 
@@ -13,8 +14,6 @@
 
 namespace msc_vo {
 namespace {
-
-const Rigid3 kTruth(ExpSO3({0.9, -1.3, 0.4}), {1.0, -2.0, 3.0});
 
 std::vector<Eigen::Vector3d> Cloud(int count, const Eigen::Vector3d& size, unsigned seed) {
   std::mt19937 engine(seed);

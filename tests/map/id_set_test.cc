@@ -13,17 +13,17 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-using Table = SharedTable<int64_t, 4>;
+using IdTable = SharedTable<int64_t, 4>;
 
 // The values, which are the ids.
-std::vector<int64_t> Ids(const IdSet<Table>& set) {
+std::vector<int64_t> Ids(const IdSet<IdTable>& set) {
   std::vector<int64_t> ids;
   set.VisitAll([&](int64_t value) { ids.push_back(value); });
   return ids;
 }
 
 TEST(IdSetTest, VisitsEveryIdOnceInAscendingOrder) {
-  Table table;
+  IdTable table;
   for (const int64_t id : {7, 8, 70, 71, 134, 135, 1000}) table.Append(id, id);
   IdSet set(table);
   EXPECT_THAT(Ids(set), IsEmpty());
@@ -33,7 +33,7 @@ TEST(IdSetTest, VisitsEveryIdOnceInAscendingOrder) {
 }
 
 TEST(IdSetTest, IsEmptyForAnEmptyTable) {
-  const Table table;
+  const IdTable table;
   EXPECT_THAT(Ids(IdSet(table)), IsEmpty());
 }
 

@@ -14,12 +14,12 @@
 namespace msc_vo {
 namespace {
 
-constexpr int kNumKeyframes = 6;
+constexpr int kNumViews = 6;        // keyframes
 constexpr double kBaseline = 0.08;  // metres from keyframe to keyframe
 constexpr double kDistance = 3.0;   // metres, of the wall that all keyframes face
 constexpr double kPixelSigma = 0.3;
 constexpr double kDepthSigma = 0.003;  // 1/metres
-constexpr KeyframeId kNewest = kNumKeyframes - 1;
+constexpr KeyframeId kNewest = kNumViews - 1;
 
 // A wall of points and lines, part of it behind a pane.
 class FalseDepthsTest : public testing::Test {
@@ -36,7 +36,7 @@ class FalseDepthsTest : public testing::Test {
     }
     std::mt19937 random(1);
     std::normal_distribution<double> normal;
-    for (int i = 0; i < kNumKeyframes; ++i) {
+    for (int i = 0; i < kNumViews; ++i) {
       auto frame = std::make_shared<Frame>();
       frame->camera = camera_;
       const Rigid3 pose = Pose(i, 1.0);
@@ -124,7 +124,7 @@ class FalseDepthsTest : public testing::Test {
   template <typename L>
   void Add(size_t feature, const typename L::Geometry& geometry) {
     const LandmarkId id = map_.Add<L>(0, static_cast<int>(feature), geometry);
-    for (int i = 1; i < kNumKeyframes; ++i) map_.Observe<L>(id, i, static_cast<int>(feature));
+    for (int i = 1; i < kNumViews; ++i) map_.Observe<L>(id, i, static_cast<int>(feature));
   }
 };
 
@@ -187,7 +187,7 @@ TEST_F(FalseDepthsTest, ClearsFlagWithoutParallax) {
   for (const auto& [id, point] : map_.points()) {
     if (point.has_false_depth) flagged = id;
   }
-  for (int i = 0; i < kNumKeyframes - 1; ++i) {
+  for (int i = 0; i < kNumViews - 1; ++i) {
     EXPECT_TRUE(map_.Find<PointLandmark>(flagged)->has_false_depth);
     map_.RemoveObservation<PointLandmark>(flagged, i);
   }

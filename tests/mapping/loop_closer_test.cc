@@ -14,7 +14,7 @@
 namespace msc_vo {
 namespace {
 
-constexpr int kNumKeyframes = 40;
+constexpr int kNumOnWalk = 40;   // keyframes
 constexpr int kNumInRound = 36;  // keyframe 36 is where keyframe 0 was
 
 // A camera that walks on a circle of 2 m; the odometry turns a little too far with every step.
@@ -26,7 +26,7 @@ class LoopCloserTest : public testing::Test {
     step.diagonal().tail<3>().setConstant(std::pow(0.001, 2));
     const Rigid3 drift(ExpSO3({0.0, 0.0005, 0.0}), {0.0, 0.0, 0.0005});
     Rigid3 pose = Truth(0);
-    for (int i = 0; i < kNumKeyframes; ++i) {
+    for (int i = 0; i < kNumOnWalk; ++i) {
       if (i > 0) pose = drift * Truth(i) * Truth(i - 1).Inverse() * pose;
       auto frame = std::make_shared<Frame>();
       frame->points.resize(1);
@@ -142,15 +142,15 @@ TEST_F(LoopCloserTest, CorrectsSystematicDriftOfKeyframesThatShareLandmarks) {
   frame->points.resize(kShared * kNumObservers);
   Map map;
   Rigid3 pose = Truth(0);
-  for (int i = 0; i < kNumKeyframes; ++i) {
+  for (int i = 0; i < kNumOnWalk; ++i) {
     if (i > 0) pose = drift * Truth(i) * Truth(i - 1).Inverse() * pose;
     map.AddKeyframe(frame, pose);
     map.SetStepCovariance(i, IsotropicCovariance(1e-4, 1e-4));
   }
-  for (int i = 0; i < kNumKeyframes; ++i) {
+  for (int i = 0; i < kNumOnWalk; ++i) {
     for (int k = 0; k < kShared; ++k) {
       const LandmarkId id = map.Add<PointLandmark>(i, k, {0.0, 0.0, 0.0});
-      for (int j = 1; j < kNumObservers && i + j < kNumKeyframes; ++j) {
+      for (int j = 1; j < kNumObservers && i + j < kNumOnWalk; ++j) {
         map.Observe<PointLandmark>(id, i + j, kShared * j + k);
       }
     }
@@ -176,7 +176,7 @@ TEST_F(LoopCloserTest, CorrectsTheTurnOfACameraThatStaysInPlace) {
     return Rigid3(ExpSO3({0.0, angle, 0.0}), Eigen::Vector3d(0.01 * std::sin(angle), 0.0, 0.0));
   };
   Map map;
-  for (int i = 0; i < kNumKeyframes; ++i) {
+  for (int i = 0; i < kNumOnWalk; ++i) {
     map.AddKeyframe(map_.FindKeyframe(0)->frame, turned(1.005 * i));
     map.SetStepCovariance(i, IsotropicCovariance(1e-4, 1e-4));
   }
@@ -206,7 +206,7 @@ TEST_F(LoopCloserTest, RefusesWhatDriftCannotExplain) {
   }
   EXPECT_EQ(closer_.num_refused(), 1);
   EXPECT_EQ(closer_.num_closed(), 0);
-  for (int i = 0; i < kNumKeyframes; ++i) {
+  for (int i = 0; i < kNumOnWalk; ++i) {
     EXPECT_EQ(map_.CamFromWorld(i).params, before.CamFromWorld(i).params) << i;
   }
 }

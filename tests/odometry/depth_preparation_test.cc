@@ -12,13 +12,13 @@ namespace {
 
 using S = SensorCorrection;
 
-const PinholeCamera kCamera{260.0, 260.0, 159.5, 119.5, 320, 240};
-constexpr double kDelay = 0.02;  // seconds
+const PinholeCamera kSmallCamera{260.0, 260.0, 159.5, 119.5, 320, 240};
+constexpr double kDepthDelay = 0.02;  // seconds
 constexpr float kFar = 2.0f;
 constexpr float kNear = 1.0f;
 
 std::shared_ptr<const CameraIntrinsics> Given() {
-  return std::make_shared<CameraIntrinsics>(CameraIntrinsics{kCamera, {}});
+  return std::make_shared<CameraIntrinsics>(CameraIntrinsics{kSmallCamera, {}});
 }
 
 // A wall whose part from column `edge` on is nearer.
@@ -26,9 +26,9 @@ RgbdImage ImageWithEdge(int edge) {
   RgbdImage image;
   image.id = 7;
   image.timestamp = 3.5;
-  image.gray = cv::Mat(kCamera.height, kCamera.width, CV_8UC1, cv::Scalar(128));
-  image.depth = cv::Mat(kCamera.height, kCamera.width, CV_32FC1, cv::Scalar(kFar));
-  image.depth.colRange(edge, kCamera.width).setTo(kNear);
+  image.gray = cv::Mat(kSmallCamera.height, kSmallCamera.width, CV_8UC1, cv::Scalar(128));
+  image.depth = cv::Mat(kSmallCamera.height, kSmallCamera.width, CV_32FC1, cv::Scalar(kFar));
+  image.depth.colRange(edge, kSmallCamera.width).setTo(kNear);
   return image;
 }
 
@@ -38,44 +38,44 @@ RgbdImage DelayedImageWithEdge(int edge, double delay) {
   return image;
 }
 
-// What the image shows moves to the left by so many pixels within kDelay.
+// What the image shows moves to the left by so many pixels within kDepthDelay.
 CameraVelocity LeftBy(double pixels) {
-  return {{0.0, -pixels / kCamera.fx / kDelay, 0.0}, {0.0, 0.0, 0.0}};
+  return {{0.0, -pixels / kSmallCamera.fx / kDepthDelay, 0.0}, {0.0, 0.0, 0.0}};
 }
 
 // The depth of the middle row begins to be that of the near part at column `edge`, up to two.
 void ExpectEdge(const cv::Mat& depth, int edge) {
-  ASSERT_EQ(depth.size(), cv::Size(kCamera.width, kCamera.height));
-  EXPECT_NEAR(depth.at<float>(kCamera.height / 2, edge - 3), kFar, 0.05);
-  EXPECT_NEAR(depth.at<float>(kCamera.height / 2, edge + 2), kNear, 0.05);
+  ASSERT_EQ(depth.size(), cv::Size(kSmallCamera.width, kSmallCamera.height));
+  EXPECT_NEAR(depth.at<float>(kSmallCamera.height / 2, edge - 3), kFar, 0.05);
+  EXPECT_NEAR(depth.at<float>(kSmallCamera.height / 2, edge + 2), kNear, 0.05);
 }
 
 S::Vector ShiftBy(double pixels) {
   S::Vector correction = S::Vector::Zero();
-  correction(S::kDepthX) = pixels / kCamera.fx;
+  correction(S::kDepthX) = pixels / kSmallCamera.fx;
   return correction;
 }
 
 TEST(DepthPreparation, MovesDepthToTheTimeOfTheColourImage) {
   const DepthPreparation preparation(Given());
-  const RgbdImage after = DelayedImageWithEdge(165, kDelay);
+  const RgbdImage after = DelayedImageWithEdge(165, kDepthDelay);
   const RgbdImage aligned = preparation.Align(after, LeftBy(6.0));
   ExpectEdge(aligned.depth, 171);
-  EXPECT_EQ(aligned.depth_delay, kDelay);
+  EXPECT_EQ(aligned.depth_delay, kDepthDelay);
   ASSERT_TRUE(aligned.depth_velocity);
   EXPECT_EQ(aligned.depth_velocity->linear, LeftBy(6.0).linear);
   EXPECT_EQ(aligned.id, 7);
   EXPECT_EQ(aligned.timestamp, 3.5);
   EXPECT_EQ(aligned.gray.data, after.gray.data);
   ExpectEdge(after.depth, 165);
-  ExpectEdge(preparation.Align(DelayedImageWithEdge(165, -kDelay), LeftBy(6.0)).depth, 159);
+  ExpectEdge(preparation.Align(DelayedImageWithEdge(165, -kDepthDelay), LeftBy(6.0)).depth, 159);
 }
 
 TEST(DepthPreparation, KeepsDepthThatNeedsNoAlignment) {
   const DepthPreparation preparation(Given());
   const RgbdImage simultaneous = ImageWithEdge(165);
   EXPECT_EQ(preparation.Align(simultaneous, LeftBy(6.0)).depth.data, simultaneous.depth.data);
-  const RgbdImage delayed = DelayedImageWithEdge(165, kDelay);
+  const RgbdImage delayed = DelayedImageWithEdge(165, kDepthDelay);
   const RgbdImage unknown_velocity = preparation.Align(delayed, std::nullopt);
   EXPECT_EQ(unknown_velocity.depth.data, delayed.depth.data);
   EXPECT_FALSE(unknown_velocity.depth_velocity);
@@ -91,7 +91,7 @@ TEST(DepthPreparation, AlignsWithTheCameraThatTookTheDepth) {
   S::Vector correction = S::Vector::Zero();
   correction(S::kFocalLength) = std::log(1.5);
   preparation.SetIntrinsics(Corrected(*Given(), correction));
-  const RgbdImage image = DelayedImageWithEdge(165, kDelay);
+  const RgbdImage image = DelayedImageWithEdge(165, kDepthDelay);
   ExpectEdge(preparation.Align(image, LeftBy(6.0)).depth, 174);
   correction(S::kDepthFocalLength) = std::log(2.0);
   preparation.SetIntrinsics(Corrected(*Given(), correction));
@@ -121,7 +121,7 @@ TEST(DepthPreparation, RegistersRelativeToTheGivenIntrinsics) {
   correction(S::kFocalLength) = std::log(1.5);
   preparation.SetIntrinsics(Corrected(*Given(), correction));
   ExpectEdge(preparation.Register(ImageWithEdge(232)).depth, 220);
-  EXPECT_EQ(preparation.given()->camera.fx, kCamera.fx);
+  EXPECT_EQ(preparation.given()->camera.fx, kSmallCamera.fx);
 }
 
 TEST(DepthPreparation, MeasuresDepthAgainWithAnyRegistration) {
@@ -130,7 +130,7 @@ TEST(DepthPreparation, MeasuresDepthAgainWithAnyRegistration) {
   const DepthMeasurement measure = preparation->MeasurementFor(FrameBuilderOptions());
   preparation.reset();
   Frame frame;
-  frame.camera = kCamera;
+  frame.camera = kSmallCamera;
   frame.intrinsics = given;
   frame.points.resize(2);
   frame.points[0].pixel = {140.0, 120.0};

@@ -10,7 +10,7 @@
 namespace msc_vo {
 namespace {
 
-FrameResult Frame(double timestamp, TrackingStatus status, double x, double turn = 0.0) {
+FrameResult ResultAt(double timestamp, TrackingStatus status, double x, double turn = 0.0) {
   FrameResult frame;
   frame.timestamp = timestamp;
   frame.status = status;
@@ -20,9 +20,10 @@ FrameResult Frame(double timestamp, TrackingStatus status, double x, double turn
 }
 
 TEST(FillGaps, InterpolatesAtConstantVelocity) {
-  std::vector<FrameResult> frames = {
-      Frame(0.0, TrackingStatus::kTracked, 0.0, 0.0), Frame(0.1, TrackingStatus::kPredicted, 7.0),
-      Frame(0.3, TrackingStatus::kLost, 7.0), Frame(0.4, TrackingStatus::kWeak, 4.0, 0.8)};
+  std::vector<FrameResult> frames = {ResultAt(0.0, TrackingStatus::kTracked, 0.0, 0.0),
+                                     ResultAt(0.1, TrackingStatus::kPredicted, 7.0),
+                                     ResultAt(0.3, TrackingStatus::kLost, 7.0),
+                                     ResultAt(0.4, TrackingStatus::kWeak, 4.0, 0.8)};
   FillGaps({}, &frames);
   for (const FrameResult& frame : frames) {
     EXPECT_NEAR(frame.cam_from_world.OriginInSource().x(), 10.0 * frame.timestamp, 1e-12);
@@ -34,9 +35,9 @@ TEST(FillGaps, InterpolatesAtConstantVelocity) {
 
 TEST(FillGaps, KeepsPosesOfPoseFactorsAndInterpolatesBetweenThem) {
   std::vector<FrameResult> frames = {
-      Frame(0.0, TrackingStatus::kTracked, 0.0), Frame(0.1, TrackingStatus::kPredicted, 5.0),
-      Frame(0.2, TrackingStatus::kDropped, 5.0), Frame(0.3, TrackingStatus::kPredicted, 9.0),
-      Frame(0.4, TrackingStatus::kTracked, 2.0)};
+      ResultAt(0.0, TrackingStatus::kTracked, 0.0), ResultAt(0.1, TrackingStatus::kPredicted, 5.0),
+      ResultAt(0.2, TrackingStatus::kDropped, 5.0), ResultAt(0.3, TrackingStatus::kPredicted, 9.0),
+      ResultAt(0.4, TrackingStatus::kTracked, 2.0)};
   frames[1].by_pose_factors = frames[3].by_pose_factors = true;
   FillGaps({}, &frames);
   std::vector<double> x;
@@ -46,8 +47,8 @@ TEST(FillGaps, KeepsPosesOfPoseFactorsAndInterpolatesBetweenThem) {
 
 TEST(FillGaps, KeepsTheEndsAndEstimatedFrames) {
   const std::vector<FrameResult> before = {
-      Frame(0.0, TrackingStatus::kLost, 1.0), Frame(0.1, TrackingStatus::kTracked, 2.0),
-      Frame(0.2, TrackingStatus::kTracked, 5.0), Frame(0.3, TrackingStatus::kPredicted, 9.0)};
+      ResultAt(0.0, TrackingStatus::kLost, 1.0), ResultAt(0.1, TrackingStatus::kTracked, 2.0),
+      ResultAt(0.2, TrackingStatus::kTracked, 5.0), ResultAt(0.3, TrackingStatus::kPredicted, 9.0)};
   std::vector<FrameResult> after = before;
   FillGaps({}, &after);
   for (size_t i = 0; i < before.size(); ++i) {
@@ -59,9 +60,9 @@ TEST(FillGaps, KeepsTheEndsAndEstimatedFrames) {
 
 TEST(FillGaps, DoesNotInterpolateBetweenWorlds) {
   std::vector<FrameResult> frames = {
-      Frame(0.0, TrackingStatus::kTracked, 0.0), Frame(0.1, TrackingStatus::kLost, 7.0),
-      Frame(0.2, TrackingStatus::kTracked, 8.0), Frame(0.3, TrackingStatus::kLost, 9.0),
-      Frame(0.4, TrackingStatus::kTracked, 4.0)};
+      ResultAt(0.0, TrackingStatus::kTracked, 0.0), ResultAt(0.1, TrackingStatus::kLost, 7.0),
+      ResultAt(0.2, TrackingStatus::kTracked, 8.0), ResultAt(0.3, TrackingStatus::kLost, 9.0),
+      ResultAt(0.4, TrackingStatus::kTracked, 4.0)};
   frames[2].segment = frames[3].segment = 1;
   frames[4].segment = 2;
   std::vector<Segment> segments(3);

@@ -53,10 +53,10 @@ FrameError ErrorOf(const TrackedImage& image, const Rigid3& true_cam_from_world)
 }
 
 // True poses by time stamp.
-using TruePoses = std::map<double, Rigid3>;
+using PosesByTime = std::map<double, Rigid3>;
 
 // The true pose of the frame relative to `keyframe`, whose pose in the map is taken for true.
-Rigid3 TruePose(const TruePoses& world_from_cam, const TrackedImage& image,
+Rigid3 TruePose(const PosesByTime& world_from_cam, const TrackedImage& image,
                 const Keyframe& keyframe) {
   const Rigid3 cam_from_keyframe = world_from_cam.at(image.image.timestamp).Inverse() *
                                    world_from_cam.at(keyframe.frame->timestamp);
@@ -97,7 +97,7 @@ double FractionOfWrongInliers(const TrackedImage& image, const Rigid3& true_cam_
 
 // Least error, in sigmas, relative to a keyframe with at least a quarter as many common landmarks
 // as the one with most of them.
-double LeastError(const TruePoses& world_from_cam, const TrackedImage& image) {
+double LeastError(const PosesByTime& world_from_cam, const TrackedImage& image) {
   const Map& map = image.map.map;
   ObserverCount observers(map);
   for (const PointMatch& match : image.tracked.matches.points) {
@@ -117,7 +117,7 @@ double LeastError(const TruePoses& world_from_cam, const TrackedImage& image) {
 }
 
 // Returns the first explanation that applies. To be read, not tested.
-std::string Explain(const SyntheticSequenceOptions& world, const TruePoses& world_from_cam,
+std::string Explain(const SyntheticSequenceOptions& world, const PosesByTime& world_from_cam,
                     const TrackedImage& image, const Rigid3& true_cam_from_world,
                     const FrameError& error) {
   const FrameMatches& matches = image.tracked.matches;
@@ -141,7 +141,7 @@ bool IsEasy(const SyntheticSequenceOptions& options) {
 std::vector<FrameError> ErrorsOfTrackedFrames(unsigned seed, int num_frames) {
   const RandomWorld world = DrawWorld(seed, num_frames);
   const SyntheticSequence sequence(world.sequence);
-  TruePoses world_from_cam;
+  PosesByTime world_from_cam;
   for (const RgbdImage& image : world.images) {
     world_from_cam[image.timestamp] = sequence.PoseAt(static_cast<int>(image.id)).world_from_cam;
   }

@@ -26,12 +26,12 @@ namespace fs = std::filesystem;
 using testing::Contains;
 using testing::Not;
 
-constexpr int kNumImages = 9;
+constexpr int kNumRoomImages = 9;
 
 class PhoneFormatsTest : public TemporaryFolder {
  protected:
   static void SetUpTestSuite() {
-    source_ = new PhoneSource(ReadPhoneSource(MSC_VO_DATA_FOLDER "/room", kNumImages));
+    source_ = new PhoneSource(ReadPhoneSource(MSC_VO_DATA_FOLDER "/room", kNumRoomImages));
   }
   static void TearDownTestSuite() { delete source_; }
 
@@ -76,10 +76,10 @@ TEST_F(PhoneFormatsTest, ReadImagesPosesAndCamera) {
     EXPECT_EQ(index.format, format);
     EXPECT_THAT(index.recorder, testing::HasSubstr("iPhone"));
     EXPECT_EQ(index.depth_sensor, DepthSensor::kLidar);
-    ASSERT_EQ(index.entries.size(), static_cast<size_t>(kNumImages));
+    ASSERT_EQ(index.entries.size(), static_cast<size_t>(kNumRoomImages));
     EXPECT_EQ(index.reference, "ARKit");
     EXPECT_EQ(TruthFileName(index), std::string("reference.txt"));
-    ASSERT_EQ(index.ground_truth.size(), static_cast<size_t>(kNumImages));
+    ASSERT_EQ(index.ground_truth.size(), static_cast<size_t>(kNumRoomImages));
     const double start = index.entries[0].timestamp - source_->images[0].timestamp;
     for (size_t i = 0; i < index.entries.size(); ++i) {
       const PhoneSource::Image& image = source_->images[i];

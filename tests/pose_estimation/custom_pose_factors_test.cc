@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "tests/pose_estimation/window_frame.h"
 #include "tests/support/factor_checks.h"
 #include "tests/support/message_matchers.h"
-#include "tests/support/test_window.h"
 #include <gmock/gmock.h>
 
 #include "msc_vo/pose_estimation/pose_factors.h"
@@ -17,10 +17,6 @@
 
 namespace msc_vo {
 namespace {
-
-constexpr int kFrame = 4;  // of the synthetic window
-
-Rigid3 Truth(const TestWindow& window) { return window.truth.keyframes[kFrame].cam_from_world; }
 
 // The factors as a Ceres problem over `pose`.
 void AddToCeres(const std::vector<PoseFactor>& factors, Rigid3* pose, ceres::Problem* problem) {
@@ -191,7 +187,7 @@ class LimitedCost : public ceres::SizedCostFunction<1, 7> {
 class TwoBlocks : public ceres::SizedCostFunction<1, 7, 7> {
   bool Evaluate(const double* const*, double*, double**) const override { return true; }
 };
-class Landmark : public ceres::SizedCostFunction<1, 3> {
+class LandmarkFactor : public ceres::SizedCostFunction<1, 3> {
   bool Evaluate(const double* const*, double*, double**) const override { return true; }
 };
 class NoRows : public ceres::CostFunction {
@@ -217,7 +213,7 @@ TEST(CustomPoseFactors, NameTheInvalidFactor) {
   const double below = good.cam_from_world.translation().x() - 1.0;
   EXPECT_THAT(message(nullptr), Names("'wheel'", "null"));
   EXPECT_THAT(message(std::make_shared<TwoBlocks>()), Names("'wheel'", "parameter block", "2"));
-  EXPECT_THAT(message(std::make_shared<Landmark>()), Names("'wheel'", "3", "block 0", "7"));
+  EXPECT_THAT(message(std::make_shared<LandmarkFactor>()), Names("'wheel'", "3", "block 0", "7"));
   EXPECT_THAT(message(std::make_shared<NoRows>()), Names("'wheel'", "residual"));
   for (const bool fails : {false, true}) {
     EXPECT_THAT(message(std::make_shared<LimitedCost>(below, fails)),

@@ -8,11 +8,11 @@
 #include <stdexcept>
 #include <vector>
 
+#include "tests/pose_estimation/window_frame.h"
 #include "tests/support/custom_pose_factors.h"
 #include "tests/support/eigen_matchers.h"
 #include "tests/support/factor_checks.h"
 #include "tests/support/message_matchers.h"
-#include "tests/support/test_window.h"
 #include <Eigen/Cholesky>
 #include <gmock/gmock.h>
 
@@ -21,7 +21,6 @@ namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-constexpr int kFrame = 4;  // of the synthetic window
 constexpr int kNumWindows = 300;
 // kNumWindows times the mean of chi-square with six degrees of freedom is chi-square, too: the
 // 99.9 % interval of the mean is 6 +- 3.29 sqrt(2 * 6 / 300).
@@ -63,7 +62,7 @@ double MeanSquaredSigmas(double num_observations, double map_variance) {
   double sum = 0.0;
   for (unsigned seed = 1; seed <= kNumWindows; ++seed) {
     const TestWindow window = MakeTestWindow(FewFeatures(seed));
-    const Rigid3 truth = window.truth.keyframes[kFrame].cam_from_world;
+    const Rigid3 truth = Truth(window);
     std::mt19937 random(seed);
     PoseData data = MakePoseData(window, kFrame);
     DisturbMap(truth, num_observations, &random, &data);
@@ -194,7 +193,7 @@ TEST(CovarianceOfEstimate, ExpectsLargerResidualsOfUncertainLandmarks) {
 
 // At the true pose, from which these matches are marked as dynamic by hand.
 PoseCovariance CovarianceWithDynamicMatches(PoseData data, bool shifted_are_dynamic) {
-  const Rigid3 truth = MakeTestWindow(FewFeatures(1)).truth.keyframes[kFrame].cam_from_world;
+  const Rigid3 truth = Truth(MakeTestWindow(FewFeatures(1)));
   for (size_t i = 0; i < data.points.size(); ++i) {
     data.points[i].dynamic = shifted_are_dynamic && IsShifted(i);
   }

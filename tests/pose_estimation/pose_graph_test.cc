@@ -16,7 +16,7 @@ namespace {
 constexpr int kNumKeyframes = 24;
 constexpr double kSigma = 0.01;  // metres and radians, of each edge
 
-Rigid3 Truth(int i) {
+Rigid3 PoseOnCircle(int i) {
   const double angle = 2.0 * M_PI * i / kNumKeyframes;
   return Rigid3(ExpSO3({0.0, angle, 0.0}),
                 {std::sin(angle), 0.1 * std::sin(3.0 * angle), std::cos(angle)})
@@ -24,19 +24,19 @@ Rigid3 Truth(int i) {
 }
 
 PoseGraphEdge TrueEdge(int from, int to) {
-  return {from, to, Truth(to) * Truth(from).Inverse(),
+  return {from, to, PoseOnCircle(to) * PoseOnCircle(from).Inverse(),
           kSigma * kSigma * PoseCovariance::Identity()};
 }
 
 double Error(const PoseGraph& graph, int i) {
-  const Rigid3 error = graph.poses.at(i) * Truth(i).Inverse();
+  const Rigid3 error = graph.poses.at(i) * PoseOnCircle(i).Inverse();
   return error.translation().norm() + LogSO3(error.rotation()).norm();
 }
 
 // A closed path around a circle, and how odometry has it: each step turns a little too far.
 PoseGraph Drifted(double turn) {
   PoseGraph graph;
-  graph.poses[0] = Truth(0);
+  graph.poses[0] = PoseOnCircle(0);
   for (int i = 1; i < kNumKeyframes; ++i) {
     PoseGraphEdge edge = TrueEdge(i - 1, i);
     edge.to_from_from =
@@ -65,7 +65,7 @@ TEST(PoseGraph, SpreadsTheErrorOfALoop) {
   const std::vector<double> squared_errors = OptimizePoseGraph(&graph);
   ASSERT_EQ(squared_errors.size(), graph.edges.size());
   EXPECT_LT(*std::max_element(squared_errors.begin(), squared_errors.end()), 1.0);
-  EXPECT_EQ(graph.poses.at(0).params, Truth(0).params);  // held fixed
+  EXPECT_EQ(graph.poses.at(0).params, PoseOnCircle(0).params);  // held fixed
   EXPECT_LT(Error(graph, kNumKeyframes - 1), 0.02 * last_before);
   for (int i = 1; i < kNumKeyframes; ++i) EXPECT_LT(Error(graph, i), 0.7 * last_before) << i;
 }

@@ -9,18 +9,14 @@
 #include <utility>
 #include <vector>
 
+#include "tests/pose_estimation/window_frame.h"
 #include "tests/support/factor_checks.h"
 #include "tests/support/message_matchers.h"
-#include "tests/support/test_window.h"
 #include <Eigen/Cholesky>
 #include <gmock/gmock.h>
 
 namespace msc_vo {
 namespace {
-
-constexpr int kFrame = 4;  // of the synthetic window
-
-Rigid3 Truth(const TestWindow& window) { return window.truth.keyframes[kFrame].cam_from_world; }
 
 // Normalised estimation error squared: chi-square with six degrees of freedom if the covariance is
 // consistent.

@@ -12,7 +12,7 @@ namespace msc_vo {
 namespace {
 
 // A camera that looks along the x axis of the world, 2 m above its origin.
-FrameResult Frame() {
+FrameResult WeakFrame() {
   FrameResult frame;
   frame.id = 7;
   frame.timestamp = 12.5;
@@ -30,11 +30,11 @@ FrameResult Frame() {
 }
 
 TEST(StreamedPose, WritesTheCameraInTheWorld) {
-  const std::string line = FormatStreamedPose(Frame(), StreamedPoseForm::kText);
+  const std::string line = FormatStreamedPose(WeakFrame(), StreamedPoseForm::kText);
   EXPECT_EQ(line,
             "12.500000 0 0 2 0 0.707106781 0 0.707106781 0.01 0.01 0.01 0.002 0.002 0.002 weak "
             "0\n");
-  const auto json = nlohmann::json::parse(FormatStreamedPose(Frame(), StreamedPoseForm::kJson));
+  const auto json = nlohmann::json::parse(FormatStreamedPose(WeakFrame(), StreamedPoseForm::kJson));
   EXPECT_EQ(json["time"], 12.5);
   EXPECT_EQ(json["frame"], 7);
   EXPECT_EQ(json["position"][2], 2.0);
@@ -51,7 +51,7 @@ TEST(StreamedPose, WritesTheCameraInTheWorld) {
 }
 
 TEST(StreamedPose, SaysWhatIsNotKnown) {
-  FrameResult frame = Frame();
+  FrameResult frame = WeakFrame();
   frame.covariance.reset();
   frame.world_covariance.reset();
   frame.odometry_covariance.reset();
@@ -67,7 +67,7 @@ TEST(StreamedPose, SaysWhatIsNotKnown) {
 }
 
 TEST(StreamedPose, SaysHowTheWorldChanges) {
-  FrameResult frame = Frame();
+  FrameResult frame = WeakFrame();
   frame.world_changed = WorldChange{3, Rigid3(Eigen::Quaterniond::Identity(), {1.0, 0.0, 0.0})};
   const auto json = nlohmann::json::parse(FormatStreamedPose(frame, StreamedPoseForm::kJson));
   EXPECT_EQ(json["world_changed"]["old_world"], 3);

@@ -44,7 +44,8 @@ struct McapLayout {
 std::unique_ptr<BagWriter> WriteMcapBag(const std::string& path, const McapLayout& layout = {},
                                         RosSerialization serialization = RosSerialization::kCdr);
 
-// Compresses a file with zstd.
+// Compresses bytes or a file with zstd.
+std::string Zstd(const std::string& bytes);
 void CompressFile(const std::string& path, const std::string& compressed);
 
 }  // namespace msc_vo

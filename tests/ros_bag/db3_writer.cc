@@ -17,13 +17,6 @@ namespace msc_vo {
 
 namespace {
 
-std::string Zstd(const std::string& bytes) {
-  std::string compressed(ZSTD_compressBound(bytes.size()), '\0');
-  compressed.resize(
-      ZSTD_compress(compressed.data(), compressed.size(), bytes.data(), bytes.size(), 1));
-  return compressed;
-}
-
 // As the plugin rosbag2_storage_sqlite3 lays out its files.
 class Db3Writer : public BagWriter {
  public:
@@ -78,6 +71,13 @@ class Db3Writer : public BagWriter {
 
 std::unique_ptr<BagWriter> WriteDb3Bag(const std::string& path, const std::string& compression) {
   return std::make_unique<Db3Writer>(path, compression == "zstd");
+}
+
+std::string Zstd(const std::string& bytes) {
+  std::string compressed(ZSTD_compressBound(bytes.size()), '\0');
+  compressed.resize(
+      ZSTD_compress(compressed.data(), compressed.size(), bytes.data(), bytes.size(), 1));
+  return compressed;
 }
 
 void CompressFile(const std::string& path, const std::string& compressed) {

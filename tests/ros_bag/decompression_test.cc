@@ -5,20 +5,14 @@
 
 #include <vector>
 
+#include "tests/ros_bag/bag_writer.h"
 #include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <lz4frame.h>
-#include <zstd.h>
 
 namespace msc_vo {
 namespace {
-
-std::string Zstd(const std::string& bytes) {
-  std::string packed(ZSTD_compressBound(bytes.size()), '\0');
-  packed.resize(ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), 3));
-  return packed;
-}
 
 std::string Lz4(const std::string& bytes) {
   std::string packed(LZ4F_compressFrameBound(bytes.size(), nullptr), '\0');

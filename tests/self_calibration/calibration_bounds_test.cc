@@ -15,16 +15,16 @@ namespace {
 
 using S = SensorCorrection;
 
-const CameraIntrinsics kGiven{{525.0, 525.0, 319.5, 239.5, 640, 480}, {}};
+const CameraIntrinsics kGivenIntrinsics{{525.0, 525.0, 319.5, 239.5, 640, 480}, {}};
 
-std::string Describe(int index, double value, const CameraIntrinsics& given = kGiven) {
+std::string Describe(int index, double value, const CameraIntrinsics& given = kGivenIntrinsics) {
   S::Vector correction = S::Vector::Zero();
   correction(index) = value;
   return DescribeImplausible(given, correction);
 }
 
 TEST(CalibrationBounds, ContainWrongCalibrations) {
-  EXPECT_EQ(DescribeImplausible(kGiven, S::Vector::Zero()), "");
+  EXPECT_EQ(DescribeImplausible(kGivenIntrinsics, S::Vector::Zero()), "");
   for (int i = 0; i < S::kSize; ++i) {
     for (const double sigmas : {-2.0, 2.0}) {
       EXPECT_EQ(Describe(i, sigmas * WrongCalibrationSigma()(i)), "") << i;
@@ -59,7 +59,7 @@ TEST(CalibrationBounds, NameWhatNoCameraHas) {
 
 TEST(CalibrationBounds, FollowTheGivenCamera) {
   // A narrow camera, a cropped image, a lens of its own.
-  CameraIntrinsics narrow = kGiven, cropped = kGiven, lens = kGiven;
+  CameraIntrinsics narrow = kGivenIntrinsics, cropped = kGivenIntrinsics, lens = kGivenIntrinsics;
   narrow.camera.fx = narrow.camera.fy = 1200.0;
   cropped.camera.cx = 60.0;
   lens.distortion.k[0] = 0.7;

@@ -43,19 +43,19 @@ double InverseDepthAt(const Vector3d& normal, const LensDistortion& lens, int x,
 
 // Depth image of the nearest of some planes normal . x = 1 of the colour frame; each ends at the
 // column of the depth image where its mask says so.
-struct Plane {
+struct MaskedPlane {
   Vector3d normal;
   std::function<bool(const Vector3d& x_in_color)> contains = [](const Vector3d&) { return true; };
 };
 
-cv::Mat Measure(const DepthCamera& rig, const std::vector<Plane>& planes) {
+cv::Mat Measure(const DepthCamera& rig, const std::vector<MaskedPlane>& planes) {
   cv::Mat depth(rig.camera.height, rig.camera.width, CV_32FC1, cv::Scalar(0.0f));
   const Rigid3 color_from_depth = rig.depth_from_color.Inverse();
   for (int y = 0; y < depth.rows; ++y) {
     for (int x = 0; x < depth.cols; ++x) {
       const Vector3d ray = rig.camera.Ray(Vector2d(x, y));
       double nearest = std::numeric_limits<double>::infinity();
-      for (const Plane& plane : planes) {
+      for (const MaskedPlane& plane : planes) {
         // normal . (R z ray + t) = 1.
         const double z = (1.0 - plane.normal.dot(color_from_depth.translation())) /
                          plane.normal.dot(color_from_depth.rotation() * ray);
@@ -202,7 +202,7 @@ TEST(DepthRegistration, KeepsThinObjectsInFrontOfAWall) {
                         static_cast<int>(240 * scale)};
     for (int i = 0; i < 10; ++i) {
       const double center = 0.1 + 0.37 * i / rig.camera.fx;
-      const std::vector<Plane> planes = {
+      const std::vector<MaskedPlane> planes = {
           {{0.0, 0.0, 1.0}, [&](const Vector3d& x) { return std::abs(x.x() - center) < radius; }},
           {{0.0, 0.0, 1.0 / 3.0}}};
       const cv::Mat registered = RegisterDepth(rig, color, {}, Measure(rig, planes));
@@ -255,7 +255,7 @@ TEST(DepthRegistration, AddsInverseDepthOffset) {
 }
 
 // A post at one metre in front of a wall at three metres.
-std::vector<Plane> PostAndWall() {
+std::vector<MaskedPlane> PostAndWall() {
   return {{{0.0, 0.0, 1.0}, [](const Vector3d& x) { return std::abs(x.x()) < 0.1; }},
           {{0.0, 0.0, 1.0 / 3.0}}};
 }

@@ -12,13 +12,13 @@
 namespace msc_vo {
 namespace {
 
-constexpr int kWidth = 640, kHeight = 240;
+constexpr int kWallWidth = 640, kWallHeight = 240;
 
 // A wall 1.3 to 4 m away.
 cv::Mat Wall() {
-  cv::Mat depth(kHeight, kWidth, CV_32FC1);
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
+  cv::Mat depth(kWallHeight, kWallWidth, CV_32FC1);
+  for (int y = 0; y < kWallHeight; ++y) {
+    for (int x = 0; x < kWallWidth; ++x) {
       depth.at<float>(y, x) = static_cast<float>(1.0 / (0.25 + 0.0008 * x));
     }
   }
@@ -99,11 +99,11 @@ TEST(ClassifyDepthSensor, ExactDepthThatWasWarpedToAnotherCameraIsNoStereo) {
 }
 
 TEST(ClassifyDepthSensor, IsUndecidedIfTheImageDoesNotTell) {
-  const cv::Mat flat(kHeight, kWidth, CV_32FC1, cv::Scalar(2.0));
+  const cv::Mat flat(kWallHeight, kWallWidth, CV_32FC1, cv::Scalar(2.0));
   EXPECT_EQ(ClassifyDepthSensor(MeasureDepthStatistics(Disturbed(flat.clone(), 0.0, TimeOfFlight))),
             DepthSensor::kAuto);
 
-  const cv::Mat none = cv::Mat::zeros(kHeight, kWidth, CV_32FC1);
+  const cv::Mat none = cv::Mat::zeros(kWallHeight, kWallWidth, CV_32FC1);
   EXPECT_EQ(ClassifyDepthSensor(MeasureDepthStatistics(none)), DepthSensor::kAuto);
 }
 

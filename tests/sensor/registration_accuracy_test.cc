@@ -25,7 +25,7 @@ struct Accuracy {
   double missing = 0.0;
 };
 
-DepthCamera Rig() {
+DepthCamera SimulatedRig() {
   DepthCamera rig;
   rig.camera = {290.0, 291.0, 159.0, 120.5, 320, 240};
   rig.depth_from_color = {
@@ -74,7 +74,7 @@ Accuracies Measure(SceneKind scene, bool is_noisy, const PinholeCamera& color, d
   LensDistortion lens;
   lens.k[0] = k1;
   const LensWarp warp(color, lens);
-  const DepthCamera rig = Rig();
+  const DepthCamera rig = SimulatedRig();
   const Renderer color_renderer(sequence.scene(), lens.IsZero() ? color : warp.source());
   const Renderer depth_renderer(sequence.scene(), rig.camera);
   const DepthRegistration registration(rig, color, lens);
@@ -124,7 +124,7 @@ const PinholeCamera kSame{300.0, 300.0, 159.5, 119.5, 320, 240};
 const PinholeCamera kLarge{455.0, 455.0, 319.5, 179.5, 640, 360};
 const PinholeCamera kSmall{150.0, 150.0, 79.5, 59.5, 160, 120};
 
-class RegistrationAccuracy : public testing::TestWithParam<Case> {};
+class RegistrationAccuracy : public ::testing::TestWithParam<Case> {};
 
 TEST_P(RegistrationAccuracy, SeesSurfacesOfRenderedScenes) {
   const Case& c = GetParam();
@@ -146,7 +146,7 @@ constexpr SceneKind kRoom = SceneKind::kRoom, kHouse = SceneKind::kHouse;
 
 INSTANTIATE_TEST_SUITE_P(
     Scenes, RegistrationAccuracy,
-    testing::Values(
+    ::testing::Values(
         Case{
             "RoomSame", kRoom, false, kSame, 0.0, {0.929, 0.0297, 0.0008}, {0.997, 0.0001, 0.0001}},
         Case{

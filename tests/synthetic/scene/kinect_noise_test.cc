@@ -7,18 +7,11 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "tests/synthetic/scene/flat_depth.h"
 #include <gtest/gtest.h>
-
-#include "msc_vo/synthetic/scene/renderer.h"
 
 namespace msc_vo {
 namespace {
-
-const PinholeCamera kCamera = KinectCamera(320, 240);
-
-std::vector<float> Flat(float depth) {
-  return std::vector<float>(static_cast<size_t>(kCamera.width) * kCamera.height, depth);
-}
 
 // Root mean square error over the pixels with depth.
 double Rms(const std::vector<float>& depth, double truth) {
@@ -41,8 +34,8 @@ double MeanRms(double depth) {
   double sum = 0.0;
   for (int i = 0; i < 10; ++i) {
     const float z = static_cast<float>(depth * (1.0 + 0.01 * i));
-    std::vector<float> noisy = Flat(z);
-    AddKinectNoise({}, kCamera, 1, i, &noisy);
+    std::vector<float> noisy = FlatDepth(z);
+    AddKinectNoise({}, kDepthCamera, 1, i, &noisy);
     sum += Rms(noisy, z) / std::pow(1.0 + 0.01 * i, 2);
   }
   return sum / 10.0;
@@ -57,8 +50,8 @@ TEST(KinectNoiseTest, GrowsWithSquareOfDepth) {
 }
 
 TEST(KinectNoiseTest, QuantisesDisparity) {
-  std::vector<float> depth = Flat(2.3f);
-  AddKinectNoise({}, kCamera, 1, 0, &depth);
+  std::vector<float> depth = FlatDepth(2.3f);
+  AddKinectNoise({}, kDepthCamera, 1, 0, &depth);
   for (const float z : depth) {
     if (z == 0.0f) continue;
     const double steps = 525.0 * 0.075 / z / 0.125;
@@ -69,14 +62,14 @@ TEST(KinectNoiseTest, QuantisesDisparity) {
 TEST(KinectNoiseTest, IsCorrelatedBetweenNeighboursOnly) {
   KinectNoiseOptions options;
   options.disparity_step = 1e-4;  // without quantisation
-  std::vector<float> depth = Flat(2.0f);
-  AddKinectNoise(options, kCamera, 1, 0, &depth);
+  std::vector<float> depth = FlatDepth(2.0f);
+  AddKinectNoise(options, kDepthCamera, 1, 0, &depth);
   const auto correlation = [&](int distance) {
     double product = 0.0, squares = 0.0;
-    for (int y = 0; y < kCamera.height; ++y) {
-      for (int x = 0; x + distance < kCamera.width; ++x) {
-        const double a = 1.0 / depth[y * kCamera.width + x] - 0.5;
-        product += a * (1.0 / depth[y * kCamera.width + x + distance] - 0.5);
+    for (int y = 0; y < kDepthCamera.height; ++y) {
+      for (int x = 0; x + distance < kDepthCamera.width; ++x) {
+        const double a = 1.0 / depth[y * kDepthCamera.width + x] - 0.5;
+        product += a * (1.0 / depth[y * kDepthCamera.width + x + distance] - 0.5);
         squares += a * a;
       }
     }
@@ -90,26 +83,26 @@ TEST(KinectNoiseTest, IsCorrelatedBetweenNeighboursOnly) {
 
 TEST(KinectNoiseTest, RemovesDepthOutsideRange) {
   for (const float z : {0.3f, 5.5f}) {
-    std::vector<float> depth = Flat(z);
-    AddKinectNoise({}, kCamera, 1, 0, &depth);
+    std::vector<float> depth = FlatDepth(z);
+    AddKinectNoise({}, kDepthCamera, 1, 0, &depth);
     EXPECT_EQ(MissingRatio(depth), 1.0) << z;
   }
-  std::vector<float> depth = Flat(2.0f);
-  AddKinectNoise({}, kCamera, 1, 0, &depth);
+  std::vector<float> depth = FlatDepth(2.0f);
+  AddKinectNoise({}, kDepthCamera, 1, 0, &depth);
   EXPECT_EQ(MissingRatio(depth), 0.0);
-  std::vector<float> missing = Flat(0.0f);
-  AddKinectNoise({}, kCamera, 1, 0, &missing);
+  std::vector<float> missing = FlatDepth(0.0f);
+  AddKinectNoise({}, kDepthCamera, 1, 0, &missing);
   EXPECT_EQ(MissingRatio(missing), 1.0);
 }
 
 // Depth of a plane through (0, 0, 2); `tangent` is that of the angle between its normal and the
 // optical axis.
 std::vector<float> Slanted(double tangent) {
-  std::vector<float> depth = Flat(0.0f);
-  for (int y = 0; y < kCamera.height; ++y) {
-    for (int x = 0; x < kCamera.width; ++x) {
-      const double w = (1.0 - tangent * (x - kCamera.cx) / kCamera.fx) / 2.0;
-      depth[y * kCamera.width + x] = w > 0.0 ? static_cast<float>(1.0 / w) : 0.0f;
+  std::vector<float> depth = FlatDepth(0.0f);
+  for (int y = 0; y < kDepthCamera.height; ++y) {
+    for (int x = 0; x < kDepthCamera.width; ++x) {
+      const double w = (1.0 - tangent * (x - kDepthCamera.cx) / kDepthCamera.fx) / 2.0;
+      depth[y * kDepthCamera.width + x] = w > 0.0 ? static_cast<float>(1.0 / w) : 0.0f;
     }
   }
   return depth;
@@ -117,12 +110,12 @@ std::vector<float> Slanted(double tangent) {
 
 double MissingRatioInMiddle(double tangent) {
   std::vector<float> depth = Slanted(tangent);
-  AddKinectNoise({}, kCamera, 1, 0, &depth);
+  AddKinectNoise({}, kDepthCamera, 1, 0, &depth);
   int missing = 0;
-  for (int y = 0; y < kCamera.height; ++y) {
-    for (int x = 158; x < 162; ++x) missing += depth[y * kCamera.width + x] == 0.0f ? 1 : 0;
+  for (int y = 0; y < kDepthCamera.height; ++y) {
+    for (int x = 158; x < 162; ++x) missing += depth[y * kDepthCamera.width + x] == 0.0f ? 1 : 0;
   }
-  return missing / (4.0 * kCamera.height);
+  return missing / (4.0 * kDepthCamera.height);
 }
 
 TEST(KinectNoiseTest, RemovesDepthAtGrazingAngles) {
@@ -132,36 +125,36 @@ TEST(KinectNoiseTest, RemovesDepthAtGrazingAngles) {
 }
 
 TEST(KinectNoiseTest, RemovesDepthAtEdges) {
-  std::vector<float> depth = Flat(1.5f);
-  for (int y = 0; y < kCamera.height; ++y) {
-    for (int x = 160; x < kCamera.width; ++x) depth[y * kCamera.width + x] = 3.0f;
+  std::vector<float> depth = FlatDepth(1.5f);
+  for (int y = 0; y < kDepthCamera.height; ++y) {
+    for (int x = 160; x < kDepthCamera.width; ++x) depth[y * kDepthCamera.width + x] = 3.0f;
   }
-  AddKinectNoise({}, kCamera, 1, 0, &depth);
+  AddKinectNoise({}, kDepthCamera, 1, 0, &depth);
   int missing = 0, elsewhere = 0;
-  for (int y = 0; y < kCamera.height; ++y) {
-    for (int x = 0; x < kCamera.width; ++x) {
-      const bool none = depth[y * kCamera.width + x] == 0.0f;
+  for (int y = 0; y < kDepthCamera.height; ++y) {
+    for (int x = 0; x < kDepthCamera.width; ++x) {
+      const bool none = depth[y * kDepthCamera.width + x] == 0.0f;
       (x == 159 || x == 160 ? missing : elsewhere) += none ? 1 : 0;
     }
   }
-  EXPECT_GT(missing, 2 * kCamera.height * 0.9);
+  EXPECT_GT(missing, 2 * kDepthCamera.height * 0.9);
   EXPECT_EQ(elsewhere, 0);
 }
 
 TEST(KinectNoiseTest, IsIndependentOfImageSize) {
   const PinholeCamera large = KinectCamera(640, 480);
-  std::vector<float> a = Flat(2.0f), b(640 * 480, 2.0f);
-  AddKinectNoise({}, kCamera, 1, 0, &a);
+  std::vector<float> a = FlatDepth(2.0f), b(640 * 480, 2.0f);
+  AddKinectNoise({}, kDepthCamera, 1, 0, &a);
   AddKinectNoise({}, large, 1, 0, &b);
   EXPECT_NEAR(Rms(a, 2.0) / Rms(b, 2.0), 1.0, 0.1);
 }
 
 TEST(KinectNoiseTest, IsDeterminedBySeedAndFrame) {
-  std::vector<float> a = Flat(2.0f), b = a, frame = a, seed = a;
-  AddKinectNoise({}, kCamera, 1, 4, &a);
-  AddKinectNoise({}, kCamera, 1, 4, &b);
-  AddKinectNoise({}, kCamera, 1, 5, &frame);
-  AddKinectNoise({}, kCamera, 2, 4, &seed);
+  std::vector<float> a = FlatDepth(2.0f), b = a, frame = a, seed = a;
+  AddKinectNoise({}, kDepthCamera, 1, 4, &a);
+  AddKinectNoise({}, kDepthCamera, 1, 4, &b);
+  AddKinectNoise({}, kDepthCamera, 1, 5, &frame);
+  AddKinectNoise({}, kDepthCamera, 2, 4, &seed);
   EXPECT_EQ(a, b);
   EXPECT_NE(a, frame);
   EXPECT_NE(a, seed);
@@ -169,11 +162,11 @@ TEST(KinectNoiseTest, IsDeterminedBySeedAndFrame) {
 
 TEST(KinectNoiseTest, ThrowsOnInvalidOptionsOrSize) {
   std::vector<float> depth(7, 1.0f);
-  EXPECT_THROW(AddKinectNoise({}, kCamera, 1, 0, &depth), std::invalid_argument);
+  EXPECT_THROW(AddKinectNoise({}, kDepthCamera, 1, 0, &depth), std::invalid_argument);
   KinectNoiseOptions options;
   options.max_depth = 0.1;
-  std::vector<float> good = Flat(1.0f);
-  EXPECT_THROW(AddKinectNoise(options, kCamera, 1, 0, &good), std::invalid_argument);
+  std::vector<float> good = FlatDepth(1.0f);
+  EXPECT_THROW(AddKinectNoise(options, kDepthCamera, 1, 0, &good), std::invalid_argument);
 }
 
 // Depth of ICL-NUIM is a whole number of steps of 1/351.3 1/m, half a step nearer in the mean.
@@ -182,8 +175,8 @@ TEST(KinectNoiseTest, OfIclNuimRoundsHalfAStepUpwards) {
   int count = 0;
   for (int i = 0; i < 20; ++i) {
     const float z = 2.0f + 0.005f * static_cast<float>(i);
-    std::vector<float> depth = Flat(z);
-    AddKinectNoise(IclNuimNoise(), kCamera, 1, i, &depth);
+    std::vector<float> depth = FlatDepth(z);
+    AddKinectNoise(IclNuimNoise(), kDepthCamera, 1, i, &depth);
     for (const float noisy : depth) {
       ASSERT_GT(noisy, 0.0f);
       const double steps = 351.3 / noisy;
@@ -197,15 +190,15 @@ TEST(KinectNoiseTest, OfIclNuimRoundsHalfAStepUpwards) {
 
 TEST(KinectNoiseTest, DisplacesDepth) {
   // The depth jumps between columns 159 and 160.
-  std::vector<float> depth = Flat(2.0f);
+  std::vector<float> depth = FlatDepth(2.0f);
   for (size_t i = 0; i < depth.size(); ++i) {
-    if (static_cast<int>(i % kCamera.width) >= 160) depth[i] = 3.0f;
+    if (static_cast<int>(i % kDepthCamera.width) >= 160) depth[i] = 3.0f;
   }
   KinectNoiseOptions options = IclNuimNoise();
   options.lateral_sigma = 0.0;
   options.lateral_offset = {8.0, 0.0};  // 4 px of this image
-  AddKinectNoise(options, kCamera, 1, 0, &depth);
-  const size_t row = static_cast<size_t>(100) * kCamera.width;
+  AddKinectNoise(options, kDepthCamera, 1, 0, &depth);
+  const size_t row = static_cast<size_t>(100) * kDepthCamera.width;
   EXPECT_LT(depth[row + 155], 2.1f);
   EXPECT_GT(depth[row + 156], 2.9f);
 }

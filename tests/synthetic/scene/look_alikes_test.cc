@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/synthetic/scene/small_camera.h"
 #include <gtest/gtest.h>
 
 #include "msc_vo/geometry/angles.h"
@@ -18,8 +19,6 @@ namespace msc_vo {
 namespace {
 
 using Vec = Eigen::Vector3d;
-
-constexpr int kWidth = 160, kHeight = 120;
 
 // The walk of a person in a hurry, of whom every third image is taken.
 PathOptions BriskWalk(uint64_t seed) {
@@ -36,13 +35,14 @@ class LookAlikesTest : public ::testing::TestWithParam<SceneKind> {
   static std::vector<uint8_t> View(const Scene& scene, const Placement& placement,
                                    const Waypoint& camera) {
     const auto point = [&](const Vec& x) { return Vec(placement.linear * x + placement.offset); };
-    const Renderer renderer(scene, KinectCamera(kWidth, kHeight));
+    const Renderer renderer(scene, kSmallCamera);
     const RenderedImage image =
         renderer.Render(LookAt(point(camera.position), point(camera.target)));
     std::vector<uint8_t> gray = image.Gray();
     if (placement.linear.determinant() > 0.0) return gray;
-    for (int y = 0; y < kHeight; ++y) {
-      std::reverse(gray.begin() + y * kWidth, gray.begin() + (y + 1) * kWidth);
+    for (int y = 0; y < kSmallCamera.height; ++y) {
+      std::reverse(gray.begin() + y * kSmallCamera.width,
+                   gray.begin() + (y + 1) * kSmallCamera.width);
     }
     return gray;
   }

@@ -3,25 +3,22 @@
 
 #include "msc_vo/synthetic/scene/motion_blur.h"
 
+#include "tests/synthetic/scene/small_camera.h"
 #include <gtest/gtest.h>
-
-#include "msc_vo/synthetic/scene/renderer.h"
 
 namespace msc_vo {
 namespace {
 
-const PinholeCamera kCamera = KinectCamera(160, 120);
-
 TEST(MotionBlur, MeasuresTheMotionOfTheNearestSurface) {
   std::vector<float> depth(160 * 120, 4.0f);
   Rigid3 b_from_a;
-  EXPECT_EQ(LargestImageMotion(kCamera, depth, b_from_a), 0.0);
+  EXPECT_EQ(LargestImageMotion(kSmallCamera, depth, b_from_a), 0.0);
   b_from_a.translation() = Eigen::Vector3d(0.1, 0.0, 0.0);
-  EXPECT_NEAR(LargestImageMotion(kCamera, depth, b_from_a), kCamera.fx * 0.1 / 4.0, 1e-6);
+  EXPECT_NEAR(LargestImageMotion(kSmallCamera, depth, b_from_a), kSmallCamera.fx * 0.1 / 4.0, 1e-6);
   depth[64 * 160 + 80] = 2.0f;
-  EXPECT_NEAR(LargestImageMotion(kCamera, depth, b_from_a), kCamera.fx * 0.1 / 2.0, 1e-6);
+  EXPECT_NEAR(LargestImageMotion(kSmallCamera, depth, b_from_a), kSmallCamera.fx * 0.1 / 2.0, 1e-6);
   depth.assign(depth.size(), 0.0f);
-  EXPECT_EQ(LargestImageMotion(kCamera, depth, b_from_a), 0.0);
+  EXPECT_EQ(LargestImageMotion(kSmallCamera, depth, b_from_a), 0.0);
 }
 
 TEST(MotionBlur, TakesOneSamplePerPixelOfMotion) {

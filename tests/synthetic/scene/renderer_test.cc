@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "tests/synthetic/scene/small_camera.h"
 #include <gtest/gtest.h>
 
 #include "msc_vo/geometry/so3.h"
@@ -32,17 +33,15 @@ Scene OneWall(const Vec& tilt, const Texture& texture = {}) {
   return scene;
 }
 
-const PinholeCamera kCamera = KinectCamera(160, 120);
-
 TEST(RendererTest, DepthOfTiltedPlanesIsExact) {
   for (const Vec& tilt : {Vec(0, 0, 0), Vec(0.5, 0, 0), Vec(0, -0.6, 0), Vec(0.3, 0.4, 0.2)}) {
     const Scene scene = OneWall(tilt);
-    const RenderedImage image = Renderer(scene, kCamera).Render(Rigid3());
+    const RenderedImage image = Renderer(scene, kSmallCamera).Render(Rigid3());
     const Vec normal = scene.quads[0].Normal();
-    for (int y = 0; y < kCamera.height; y += 7) {
-      for (int x = 0; x < kCamera.width; x += 7) {
-        const double depth = normal.dot(Vec(0, 0, 3)) / normal.dot(kCamera.Ray({x, y}));
-        ASSERT_NEAR(image.depth[y * kCamera.width + x], depth, 1e-5) << x << " " << y;
+    for (int y = 0; y < kSmallCamera.height; y += 7) {
+      for (int x = 0; x < kSmallCamera.width; x += 7) {
+        const double depth = normal.dot(Vec(0, 0, 3)) / normal.dot(kSmallCamera.Ray({x, y}));
+        ASSERT_NEAR(image.depth[y * kSmallCamera.width + x], depth, 1e-5) << x << " " << y;
       }
     }
   }
@@ -53,7 +52,7 @@ TEST(RendererTest, DepthAgreesWithRaysInFurnishedRoom) {
   const Rigid3 cam_from_world = CameraPath(scene, PathOptions()).CamFromWorld(2.0);
   const Rigid3 world_from_cam = cam_from_world.Inverse();
   for (const double sign : {1.0, -1.0}) {
-    PinholeCamera camera = kCamera;
+    PinholeCamera camera = kSmallCamera;
     camera.fy *= sign;
     const RenderedImage image = Renderer(scene, camera).Render(cam_from_world);
     for (int y = 0; y < camera.height; y += 3) {
@@ -70,14 +69,15 @@ TEST(RendererTest, DepthAgreesWithRaysInFurnishedRoom) {
 TEST(RendererTest, NegativeFyMirrorsImage) {
   const Scene scene = MakeScene(SceneKind::kRoom, 1);
   const Rigid3 cam_from_world = CameraPath(scene, PathOptions()).CamFromWorld(0.0);
-  PinholeCamera mirrored = kCamera;
+  PinholeCamera mirrored = kSmallCamera;
   mirrored.fy = -mirrored.fy;
-  const RenderedImage image = Renderer(scene, kCamera).Render(cam_from_world);
+  const RenderedImage image = Renderer(scene, kSmallCamera).Render(cam_from_world);
   const RenderedImage mirror = Renderer(scene, mirrored).Render(cam_from_world);
   int different = 0;
-  for (int y = 0; y < kCamera.height; ++y) {
-    for (int x = 0; x < kCamera.width; ++x) {
-      const int a = y * kCamera.width + x, b = (kCamera.height - 1 - y) * kCamera.width + x;
+  for (int y = 0; y < kSmallCamera.height; ++y) {
+    for (int x = 0; x < kSmallCamera.width; ++x) {
+      const int a = y * kSmallCamera.width + x,
+                b = (kSmallCamera.height - 1 - y) * kSmallCamera.width + x;
       different += std::abs(image.depth[a] - mirror.depth[b]) > 1e-5 ? 1 : 0;
     }
   }
@@ -105,21 +105,21 @@ TEST(RendererTest, RendersEveryRowFromItsPose) {
 
 TEST(RendererTest, TextureIsConsistentBetweenViews) {
   const Texture poster{TextureKind::kPoster, {0.85f, 0.82f, 0.74f}, {0.1f, 0.1f, 0.1f}, 3.0f, 5};
-  const Renderer renderer(OneWall({0.1, 0.2, 0}, poster), kCamera);
+  const Renderer renderer(OneWall({0.1, 0.2, 0}, poster), kSmallCamera);
   const Rigid3 second_from_first(ExpSO3({0.03, -0.05, 0.1}), {0.2, -0.1, 0.1});
   const RenderedImage first = renderer.Render(Rigid3()),
                       second = renderer.Render(second_from_first);
   const std::vector<uint8_t> gray_first = first.Gray(), gray_second = second.Gray();
   double sum = 0.0, shifted_sum = 0.0;
   int count = 0;
-  for (int y = 0; y < kCamera.height; ++y) {
-    for (int x = 0; x < kCamera.width; ++x) {
-      const int i = y * kCamera.width + x;
-      const Vec there = second_from_first * kCamera.BackProject({x, y}, first.depth[i]);
-      const Eigen::Vector2d pixel = kCamera.Project(there);
-      if (!kCamera.IsInside(pixel, 4.0)) continue;
+  for (int y = 0; y < kSmallCamera.height; ++y) {
+    for (int x = 0; x < kSmallCamera.width; ++x) {
+      const int i = y * kSmallCamera.width + x;
+      const Vec there = second_from_first * kSmallCamera.BackProject({x, y}, first.depth[i]);
+      const Eigen::Vector2d pixel = kSmallCamera.Project(there);
+      if (!kSmallCamera.IsInside(pixel, 4.0)) continue;
       const int u = static_cast<int>(std::lround(pixel.x()));
-      const int v = static_cast<int>(std::lround(pixel.y())), j = v * kCamera.width + u;
+      const int v = static_cast<int>(std::lround(pixel.y())), j = v * kSmallCamera.width + u;
       // Depth at the nearest pixel: the error is at most the slope of the wall over half a pixel.
       ASSERT_NEAR(second.depth[j], there.z(), 0.02);
       sum += std::abs(gray_first[i] - gray_second[j]);
@@ -140,21 +140,22 @@ TEST(RendererTest, EdgesAreAntiAliasedAndAccurateToSubPixels) {
                          turn * Vec(4, 0, 0),
                          turn * Vec(0, -8, 0),
                          {TextureKind::kPlain, {1, 1, 1}}});
-  const RenderedImage image = Renderer(scene, kCamera).Render(Rigid3());
+  const RenderedImage image = Renderer(scene, kSmallCamera).Render(Rigid3());
   const std::vector<uint8_t> gray = image.Gray();
   const int full = *std::max_element(gray.begin(), gray.end());
   int between = 0;
-  for (int y = 10; y < kCamera.height - 10; ++y) {
+  for (int y = 10; y < kSmallCamera.height - 10; ++y) {
     double black = 0.0;  // pixels of the row left of the border
-    for (int x = 0; x < kCamera.width; ++x) {
-      const int value = gray[y * kCamera.width + x];
+    for (int x = 0; x < kSmallCamera.width; ++x) {
+      const int value = gray[y * kSmallCamera.width + x];
       black += 1.0 - value / static_cast<double>(full);
       between += value > full / 10 && value < full - full / 10 ? 1 : 0;
     }
     // Where the border crosses the middle of the row: points x with turn^-1 (x - offset) . ux = 0.
-    const double y_world = 2.5 * (y - kCamera.cy) / kCamera.fy;
+    const double y_world = 2.5 * (y - kSmallCamera.cy) / kSmallCamera.fy;
     const double x_world = 0.02 - std::tan(0.2) * y_world;
-    EXPECT_NEAR(black - 0.5, kCamera.fx * x_world / 2.5 + kCamera.cx, 0.15) << "row " << y;
+    EXPECT_NEAR(black - 0.5, kSmallCamera.fx * x_world / 2.5 + kSmallCamera.cx, 0.15)
+        << "row " << y;
   }
   EXPECT_GT(between, 50);
 }
@@ -162,16 +163,16 @@ TEST(RendererTest, EdgesAreAntiAliasedAndAccurateToSubPixels) {
 TEST(RendererTest, ObjectsThinnerThanPixelAreContinuous) {
   // A slanted bar, a third of a pixel wide, must be visible in every row.
   Scene scene = OneWall(Vec::Zero(), {TextureKind::kPlain, {0, 0, 0}});
-  const double width = 2.0 / kCamera.fx / 3.0;
+  const double width = 2.0 / kSmallCamera.fx / 3.0;
   const Eigen::Quaterniond turn = ExpSO3({0, 0, 0.02});
   scene.quads.push_back({turn * Vec(0, 2, 0) + Vec(0, 0, 2),
                          turn * Vec(width, 0, 0),
                          turn * Vec(0, -4, 0),
                          {TextureKind::kPlain, {1, 1, 1}}});
-  const RenderedImage image = Renderer(scene, kCamera).Render(Rigid3());
-  for (int y = 0; y < kCamera.height; ++y) {
+  const RenderedImage image = Renderer(scene, kSmallCamera).Render(Rigid3());
+  for (int y = 0; y < kSmallCamera.height; ++y) {
     double sum = 0.0;
-    for (int x = 0; x < kCamera.width; ++x) sum += image.rgb[3 * (y * kCamera.width + x)];
+    for (int x = 0; x < kSmallCamera.width; ++x) sum += image.rgb[3 * (y * kSmallCamera.width + x)];
     EXPECT_NEAR(sum / (0.8 * 255.0 * 1.0), 1.0 / 3.0, 0.25) << "row " << y;
     EXPECT_GT(sum, 15.0) << "row " << y;
   }
@@ -181,7 +182,7 @@ TEST(RendererTest, FacesOfWhiteBoxDifferInBrightness) {
   const Scene scene = MakeScene(SceneKind::kBare, 1);
   const CameraPath path(scene, PathOptions());
   for (int i = 0; i < 5; ++i) {
-    const RenderedImage image = Renderer(scene, kCamera).Render(path.CamFromWorld(4.0 * i));
+    const RenderedImage image = Renderer(scene, kSmallCamera).Render(path.CamFromWorld(4.0 * i));
     const std::vector<uint8_t> gray = image.Gray();
     const auto [low, high] = std::minmax_element(gray.begin(), gray.end());
     EXPECT_GT(*high - *low, 60) << i;
@@ -193,7 +194,7 @@ TEST(RendererTest, FacesOfWhiteBoxDifferInBrightness) {
 TEST(RendererTest, BackSidesAreInvisible) {
   Scene scene = OneWall(Vec::Zero());
   std::swap(scene.quads[0].edge_u, scene.quads[0].edge_v);  // now it faces away
-  const RenderedImage image = Renderer(scene, kCamera).Render(Rigid3());
+  const RenderedImage image = Renderer(scene, kSmallCamera).Render(Rigid3());
   EXPECT_EQ(*std::max_element(image.depth.begin(), image.depth.end()), 0.0f);
   EXPECT_EQ(*std::max_element(image.rgb.begin(), image.rgb.end()), 0);
 }

@@ -19,7 +19,7 @@ namespace {
 
 using Vec = Eigen::Vector3d;
 
-constexpr std::array<SceneKind, 15> kKinds = {
+constexpr std::array<SceneKind, 15> kSceneKinds = {
     SceneKind::kRoom,    SceneKind::kCorridor, SceneKind::kBare,   SceneKind::kSlanted,
     SceneKind::kHouse,   SceneKind::kBox,      SceneKind::kRooms,  SceneKind::kMirrored,
     SceneKind::kFloors,  SceneKind::kDesks,    SceneKind::kBlank,  SceneKind::kZigZag,
@@ -96,12 +96,12 @@ TEST(SceneTest, ParsesNamesOfScenes) {
   EXPECT_EQ(SceneKindFromName("zigzag"), SceneKind::kZigZag);
   EXPECT_EQ(SceneKindFromName("dead-end"), SceneKind::kDeadEnd);
   EXPECT_EQ(SceneKindFromName("poster"), SceneKind::kPoster);
-  EXPECT_EQ(SceneKindNames().size(), kKinds.size());
+  EXPECT_EQ(SceneKindNames().size(), kSceneKinds.size());
   EXPECT_FALSE(SceneKindFromName("garden").has_value());
 }
 
 TEST(SceneTest, ConsistsOfRectanglesAndIsClosed) {
-  for (const SceneKind kind : kKinds) {
+  for (const SceneKind kind : kSceneKinds) {
     const Scene scene = MakeScene(kind, 3);
     for (const Quad& quad : scene.quads) {
       EXPECT_NEAR(quad.edge_u.normalized().dot(quad.edge_v.normalized()), 0.0, 1e-9);
@@ -115,7 +115,7 @@ TEST(SceneTest, ConsistsOfRectanglesAndIsClosed) {
 }
 
 TEST(SceneTest, IsDeterminedBySeed) {
-  for (const SceneKind kind : kKinds) {
+  for (const SceneKind kind : kSceneKinds) {
     const Scene a = MakeScene(kind, 1), b = MakeScene(kind, 1), c = MakeScene(kind, 2);
     ASSERT_EQ(a.edges.size(), b.edges.size());
     bool differs = a.edges.size() != c.edges.size();
@@ -154,7 +154,7 @@ TEST(SceneTest, RoomsAreTexturedAndBareScenesAreNot) {
 }
 
 TEST(SceneTest, EdgesAndPaintedEdgesLieOnSurfaces) {
-  for (const SceneKind kind : kKinds) {
+  for (const SceneKind kind : kSceneKinds) {
     const Scene scene = MakeScene(kind, 2);
     std::vector<LineSegment3> edges = scene.PaintedEdges();
     edges.insert(edges.end(), scene.edges.begin(), scene.edges.end());

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "tests/synthetic/scene/small_camera.h"
 #include <gtest/gtest.h>
 
 #include "msc_vo/synthetic/scene/renderer.h"
@@ -14,8 +15,6 @@ namespace msc_vo {
 namespace {
 
 using Vec = Eigen::Vector3d;
-
-const PinholeCamera kCamera = KinectCamera(160, 120);
 
 // A rectangle parallel to the image plane of a camera at the identity, with its centre on the
 // optical axis at depth `z`. It faces the camera, or away from it.
@@ -35,12 +34,12 @@ Scene WallAndPoster() {
   return scene;
 }
 
-size_t Pixel(int x, int y) { return static_cast<size_t>(y) * kCamera.width + x; }
+size_t Pixel(int x, int y) { return static_cast<size_t>(y) * kSmallCamera.width + x; }
 
 TEST(SpecularSurface, MirrorHasItsOwnDepthAndTheImageOfWhatIsBehindTheCamera) {
   Scene scene = WallAndPoster();
   scene.specular = {{Wall(3.0, 1.0, true), 1.0, 0.0, Eigen::Vector3f::Zero()}};
-  const RenderedImage image = Renderer(scene, kCamera).Render(Rigid3());
+  const RenderedImage image = Renderer(scene, kSmallCamera).Render(Rigid3());
 
   // The mirror image of the poster lies 5 m behind the mirror.
   Scene virtual_scene;
@@ -48,12 +47,12 @@ TEST(SpecularSurface, MirrorHasItsOwnDepthAndTheImageOfWhatIsBehindTheCamera) {
   virtual_scene.daylight.setZero();
   virtual_scene.quads = {Wall(8.0, 3.0, true, scene.quads[1].texture)};
   virtual_scene.quads[0].texture.mirrored = true;
-  const RenderedImage seen = Renderer(virtual_scene, kCamera).Render(Rigid3());
+  const RenderedImage seen = Renderer(virtual_scene, kSmallCamera).Render(Rigid3());
 
   int num_mirror = 0, num_wall = 0;
   double contrast = 0.0;
-  for (int y = 0; y < kCamera.height; ++y) {
-    for (int x = 0; x < kCamera.width; ++x) {
+  for (int y = 0; y < kSmallCamera.height; ++y) {
+    for (int x = 0; x < kSmallCamera.width; ++x) {
       const size_t i = Pixel(x, y);
       if (std::abs(image.depth[i] - 3.0f) > 1e-5f) {
         EXPECT_NEAR(image.depth[i], 4.0, 1e-5);
@@ -66,7 +65,7 @@ TEST(SpecularSurface, MirrorHasItsOwnDepthAndTheImageOfWhatIsBehindTheCamera) {
           std::max(contrast, std::abs(1.0 * image.rgb[3 * i] - image.rgb[3 * Pixel(80, 60)]));
     }
   }
-  const double side = kCamera.fx / 3.0;
+  const double side = kSmallCamera.fx / 3.0;
   EXPECT_NEAR(num_mirror, side * side, 2.5 * side);
   EXPECT_GT(num_wall, num_mirror);
   EXPECT_GT(contrast, 30.0);  // the poster has a pattern
@@ -76,8 +75,8 @@ TEST(SpecularSurface, GlassHasItsOwnDepthAndTheImageOfWhatIsBehindIt) {
   const Scene without = WallAndPoster();
   Scene scene = without;
   scene.specular = {{Wall(3.0, 1.0, true), 0.0, 0.9, Eigen::Vector3f::Constant(0.02f)}};
-  const RenderedImage image = Renderer(scene, kCamera).Render(Rigid3());
-  const RenderedImage bare = Renderer(without, kCamera).Render(Rigid3());
+  const RenderedImage image = Renderer(scene, kSmallCamera).Render(Rigid3());
+  const RenderedImage bare = Renderer(without, kSmallCamera).Render(Rigid3());
   EXPECT_NEAR(image.depth[Pixel(80, 60)], 3.0, 1e-5);
   EXPECT_NEAR(image.rgb[3 * Pixel(80, 60)], 0.9 * bare.rgb[3 * Pixel(80, 60)] + 0.02 * 255, 1);
   EXPECT_EQ(image.depth[Pixel(2, 2)], bare.depth[Pixel(2, 2)]);
@@ -87,7 +86,7 @@ TEST(SpecularSurface, GlassHasItsOwnDepthAndTheImageOfWhatIsBehindIt) {
 TEST(SpecularSurface, IsHiddenByNearerSurfaces) {
   Scene scene = WallAndPoster();
   scene.specular = {{Wall(5.0, 1.0, true), 1.0, 0.0, Eigen::Vector3f::Zero()}};
-  const RenderedImage image = Renderer(scene, kCamera).Render(Rigid3());
+  const RenderedImage image = Renderer(scene, kSmallCamera).Render(Rigid3());
   EXPECT_NEAR(image.depth[Pixel(80, 60)], 4.0, 1e-5);
 }
 
@@ -100,7 +99,7 @@ TEST(SpecularSurface, ReflectsLightsAndRows) {
   EXPECT_LT((mirrored.lights[0].position - Vec(0.5, 0, 7)).norm(), 1e-12);
   ASSERT_EQ(mirrored.quads.size(), 1U);  // the wall is behind the mirror
   EXPECT_TRUE(mirrored.specular.empty());
-  const Renderer renderer(scene, kCamera);
+  const Renderer renderer(scene, kSmallCamera);
   const RenderedImage rows = renderer.RenderRows([](int) { return Rigid3(); });
   EXPECT_EQ(rows.rgb, renderer.Render(Rigid3()).rgb);
 }

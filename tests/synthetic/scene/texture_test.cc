@@ -12,7 +12,7 @@
 namespace msc_vo {
 namespace {
 
-constexpr TextureKind kKinds[] = {
+constexpr TextureKind kTextureKinds[] = {
     TextureKind::kPlain,   TextureKind::kPlaster, TextureKind::kWood,  TextureKind::kPlanks,
     TextureKind::kTiles,   TextureKind::kPoster,  TextureKind::kBooks, TextureKind::kRug,
     TextureKind::kSpeckle, TextureKind::kOutdoors};
@@ -29,7 +29,7 @@ std::vector<Eigen::Vector3f> Sample(const Texture& texture) {
 }
 
 TEST(TextureTest, ColorsAreFiniteAndInRange) {
-  for (const TextureKind kind : kKinds) {
+  for (const TextureKind kind : kTextureKinds) {
     for (const Eigen::Vector3f& color : Sample({kind, {0.7f, 0.6f, 0.5f}, {0.2f, 0.1f, 0.1f}})) {
       ASSERT_TRUE(color.allFinite());
       ASSERT_GE(color.minCoeff(), 0.0f) << static_cast<int>(kind);
@@ -39,7 +39,7 @@ TEST(TextureTest, ColorsAreFiniteAndInRange) {
 }
 
 TEST(TextureTest, IsDeterminedBySeed) {
-  for (const TextureKind kind : kKinds) {
+  for (const TextureKind kind : kTextureKinds) {
     if (kind == TextureKind::kPlain) continue;
     const Texture a{kind, {0.7f, 0.6f, 0.5f}, {0.2f, 0.1f, 0.1f}, 1.0f, 1};
     Texture b = a;
