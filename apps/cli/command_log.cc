@@ -4,7 +4,10 @@
 #include "apps/cli/command_log.h"
 
 #include <atomic>
+#include <cstdint>
+#include <filesystem>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 
@@ -12,14 +15,53 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <unistd.h>
 
+#include "apps/cli/commands.h"
+#include "apps/cli/output_file.h"
 #include "apps/cli/terminal.h"
 #include "msc_vo/logging/logger.h"
+#include "msc_vo/text/files.h"
 
 namespace msc_vo {
 
 namespace {
 
-bool logs_to_file = false;  // set once, before any command runs
+std::string log_file;  // set once, before any command runs; empty: none
+
+// Throws std::runtime_error if the log would be appended to `value`, which an argument names, or to
+// a file in that folder that is no log.
+void RefuseFileOf(const std::string& value, const std::string& file, bool is_log) {
+  if (AreSameFile(value, file)) {
+    throw std::runtime_error("--log-file " + file + ": is also the path of another argument, " +
+                             value + "; give another one");
+  }
+  const std::string folder = std::filesystem::absolute(file).parent_path().string();
+  if (is_log || !IsFolder(value) || !AreSameFile(value, folder)) return;
+  throw std::runtime_error("--log-file " + file + ": is a file in " + value +
+                           " that is no log; give another path for the log");
+}
+
+// Refuses files to which no log belongs. Lines of a log begin with a bracket.
+void CheckLogFile(const std::string& file) {
+  constexpr char kOption[] = "--log-file";
+  constexpr size_t kNumBytes = 512;
+  const bool exists = FileProblem(file, std::numeric_limits<std::uintmax_t>::max()).empty();
+  const std::string bytes = exists ? ReadBeginning(file, kNumBytes) : "";
+  if (bytes.find('\0') != std::string::npos) {
+    throw std::runtime_error("--log-file " + file +
+                             ": exists and is no text file; give another path for the log");
+  }
+  const bool is_log = bytes.empty() || bytes.front() == '[';
+  std::string before;
+  for (const std::string& argument : CommandArguments()) {
+    const bool is_own = before == kOption || argument.rfind(kOption + std::string("="), 0) == 0;
+    before = argument;
+    if (is_own) continue;
+    RefuseFileOf(argument, file, is_log);
+    for (size_t i = argument.find('='); i != std::string::npos; i = argument.find('=', i + 1)) {
+      RefuseFileOf(argument.substr(i + 1), file, is_log);
+    }
+  }
+}
 
 spdlog::sink_ptr MakeSink(const std::string& file) {
   if (file.empty()) return std::make_shared<spdlog::sinks::stderr_sink_mt>();
@@ -43,7 +85,7 @@ void Print(spdlog::level::level_enum level, const std::string& text) {
                                 ? Colored("warning:", Color::kYellow, STDERR_FILENO)
                                 : Colored("error:", Color::kRed, STDERR_FILENO);
   std::cerr << "msc_vo: " << label << " " << text << std::endl;
-  if (logs_to_file) Log().log(level, text);
+  if (!log_file.empty()) Log().log(level, text);
 }
 
 }  // namespace
@@ -65,12 +107,15 @@ void StartLog(const LogArguments& arguments) {
   const spdlog::level::level_enum level =
       spdlog::level::from_str(arguments.level.empty() ? default_level : arguments.level);
   if (level == spdlog::level::off) return;
+  if (!arguments.file.empty()) CheckLogFile(arguments.file);
   Log().sinks() = {MakeSink(arguments.file)};
   Log().set_level(level);
   Log().set_error_handler(
       [file = arguments.file](const std::string& problem) { EndLog(file, problem); });
-  logs_to_file = !arguments.file.empty();
+  if (!arguments.file.empty()) log_file = std::filesystem::absolute(arguments.file).string();
 }
+
+const std::string& LogFile() { return log_file; }
 
 void PrintWarning(const std::string& text) { Print(spdlog::level::warn, text); }
 

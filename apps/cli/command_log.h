@@ -20,8 +20,12 @@ struct LogArguments {
 void AddLogArguments(CLI::App* command, LogArguments* arguments);
 
 /// Configures the logger of the library. Lines are appended to the file. Throws std::runtime_error
-/// naming the file if it cannot be written.
+/// naming the file if it cannot be written, or if it is no log but another file of the command: one
+/// of its arguments, a file in a folder that is one, or no text file.
 void StartLog(const LogArguments& arguments);
+
+/// The absolute path of the log file; empty if there is none.
+const std::string& LogFile();
 
 /// Print "msc_vo: warning: ..." or "msc_vo: error: ..." on standard error and add the text to the
 /// log file, if there is one.

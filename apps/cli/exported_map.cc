@@ -15,9 +15,9 @@
 
 #include "apps/cli/command_log.h"
 #include "apps/cli/exported_images.h"
+#include "apps/cli/map_input.h"
 #include "msc_vo/exports/colmap_model.h"
 #include "msc_vo/exports/map_export.h"
-#include "msc_vo/map_file/map_reader.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
 
@@ -29,7 +29,6 @@ namespace fs = std::filesystem;
 
 // The submap with most keyframes: other programs know one world only.
 SavedSubMap LargestSubMap(const std::string& file, MapContents* contents) {
-  if (contents->submaps.empty()) throw std::runtime_error(file + ": has no submap");
   const auto largest =
       std::max_element(contents->submaps.begin(), contents->submaps.end(),
                        [](const SavedSubMap& a, const SavedSubMap& b) {
@@ -82,7 +81,7 @@ void WriteMapExport(const RunExport& arguments) {
                              "run again with --map home.map, and export home.map");
   }
   RefuseToOverwrite({arguments.map}, arguments.output);
-  MapContents contents = LoadMap(arguments.map);
+  MapContents contents = LoadKeyframes(arguments.map);
   const SavedSubMap submap = LargestSubMap(arguments.map, &contents);
   if (arguments.format == "g2o") {
     WriteFile(arguments.output, FormatG2o(submap, contents.loops));
@@ -92,7 +91,9 @@ void WriteMapExport(const RunExport& arguments) {
   MakeFolder(arguments.output);
   for (const ModelFile& file :
        arguments.binary ? FormatColmapBinary(model) : FormatColmapText(model)) {
-    WriteFile((fs::path(arguments.output) / file.name).string(), file.content);
+    const std::string path = (fs::path(arguments.output) / file.name).string();
+    RefuseToOverwrite({arguments.map}, path);
+    WriteFile(path, file.content);
   }
 }
 

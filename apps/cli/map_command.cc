@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "apps/cli/commands.h"
+#include "apps/cli/map_input.h"
+#include "apps/cli/output_file.h"
 #include "msc_vo/exports/map_export.h"
 #include "msc_vo/map_file/map_images.h"
 #include "msc_vo/map_file/map_reader.h"
@@ -24,6 +26,8 @@
 namespace msc_vo {
 
 namespace {
+
+namespace fs = std::filesystem;
 
 struct MapCommandArguments {
   std::string action;
@@ -58,22 +62,68 @@ void PrintInfo(const std::string& file) {
 // Subfolder of an export for the images of keyframes. No dataset format uses this name.
 constexpr const char* kImageFolder = "keyframe_images";
 
-// Whether a file has the name of an exported image: six digits or more.
-bool IsExportedImage(const std::filesystem::path& path) {
-  const std::string id = path.stem().string();
-  return path.extension() == ".jpg" && id.size() >= 6 &&
-         id.find_first_not_of("0123456789") == std::string::npos;
+// Whether a text is `prefix` and digits.
+bool IsNumbered(const std::string& text, const std::string& prefix) {
+  return text.size() > prefix.size() && text.rfind(prefix, 0) == 0 &&
+         text.find_first_not_of("0123456789", prefix.size()) == std::string::npos;
 }
 
-// Replaces the exported images of a folder by those of the keyframes, named by their ids.
-void ExportImages(const std::string& file, const std::string& folder) {
-  const std::filesystem::path path = std::filesystem::path(folder) / kImageFolder;
-  std::vector<std::filesystem::path> earlier;
-  std::error_code is_missing;
-  for (const auto& entry : std::filesystem::directory_iterator(path, is_missing)) {
-    if (IsExportedImage(entry.path())) earlier.push_back(entry.path());
+bool IsSubMapFolder(const fs::path& path) {
+  return IsNumbered(path.filename().string(), "submap_");
+}
+
+// Whether a file in the folder of a submap has the name of one that ExportMap() writes.
+bool IsExportedFile(const fs::path& path) {
+  for (const char* name : {"points.ply", "lines.ply", "planes.ply", "graph.g2o"}) {
+    if (path.filename() == name) return true;
   }
-  for (const std::filesystem::path& image : earlier) std::filesystem::remove(image);
+  return path.extension() == ".txt" && IsNumbered(path.stem().string(), "keyframes_");
+}
+
+// Whether a file has the name of an exported image: six digits or more.
+bool IsExportedImage(const fs::path& path) {
+  return path.extension() == ".jpg" && path.stem().string().size() >= 6 &&
+         IsNumbered(path.stem().string(), "");
+}
+
+// Removes the files of a folder that an earlier export has written, and the folder if it is empty
+// then.
+void RemoveExported(const fs::path& folder, bool (*is_exported)(const fs::path&)) {
+  std::vector<fs::path> files;
+  std::error_code ignored;  // of a folder that does not exist
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    if (is_exported(entry.path()) && !entry.is_directory(ignored)) files.push_back(entry.path());
+  }
+  for (const fs::path& file : files) fs::remove(file);
+  if (fs::is_symlink(folder, ignored) || !fs::is_empty(folder, ignored)) return;
+  fs::remove(folder, ignored);
+}
+
+// Removes what an earlier export has written, possibly of a map with more submaps and sessions.
+void RemoveEarlierExport(const std::string& folder) {
+  std::vector<fs::path> submaps;
+  std::error_code is_missing;
+  for (const auto& entry : fs::directory_iterator(folder, is_missing)) {
+    if (IsSubMapFolder(entry.path())) submaps.push_back(entry.path());
+  }
+  for (const fs::path& submap : submaps) RemoveExported(submap, &IsExportedFile);
+  RemoveExported(fs::path(folder) / kImageFolder, &IsExportedImage);
+}
+
+// Throws std::runtime_error if the map is among the files that an export replaces.
+void RefuseToReplace(const std::string& map, const std::string& folder) {
+  const fs::path file = fs::canonical(map);
+  const fs::path parent = file.parent_path();
+  const bool is_replaced = (IsSubMapFolder(parent) && IsExportedFile(file)) ||
+                           (parent.filename() == kImageFolder && IsExportedImage(file));
+  if (!is_replaced || !AreSameFile(parent.parent_path().string(), folder)) return;
+  throw std::runtime_error(map + ": is in " + folder +
+                           ", where the export would replace it; give another folder");
+}
+
+// Writes the images of the keyframes, named by their ids.
+void ExportImages(const std::string& file, const std::string& folder) {
+  const fs::path path = fs::path(folder) / kImageFolder;
   const MapImages images(file);
   const std::vector<KeyframeId> keyframes = images.Keyframes();
   if (keyframes.empty()) return;
@@ -85,8 +135,10 @@ void ExportImages(const std::string& file, const std::string& folder) {
 }
 
 void Export(const std::string& file, const std::string& folder) {
-  const MapContents contents = LoadMap(file);
+  const MapContents contents = LoadKeyframes(file);
   RefuseToOverwrite({file}, folder);
+  RefuseToReplace(file, folder);
+  RemoveEarlierExport(folder);
   ExportMap(contents, folder);
   ExportImages(file, folder);
 }
@@ -111,11 +163,11 @@ void Merge(const std::vector<std::string>& files, const std::string& output) {
     throw std::runtime_error(output + ": exists; give the merged map another name");
   }
   CheckWritable(output);
-  MapContents contents = LoadMap(files.front());
+  MapContents contents = LoadKeyframes(files.front());
   std::map<KeyframeId, MapImages> images;  // of each file, by what is added to its ids
   images.emplace(0, MapImages(files.front()));
   for (size_t i = 1; i < files.size(); ++i) {
-    MapMerge merge = MergeMaps({}, std::move(contents), LoadMap(files[i]));
+    MapMerge merge = MergeMaps({}, std::move(contents), LoadKeyframes(files[i]));
     PrintMerge(files[i], merge);
     contents = std::move(merge.contents);
     images.insert_or_assign(merge.keyframe_offset, MapImages(files[i]));
@@ -127,7 +179,7 @@ void Merge(const std::vector<std::string>& files, const std::string& output) {
     });
   } catch (...) {
     std::error_code ignored;
-    std::filesystem::remove(output, ignored);  // it did not exist before
+    fs::remove(output, ignored);  // it did not exist before
     throw;
   }
 }
@@ -165,7 +217,7 @@ void Check(const MapCommandArguments& arguments) {
   for (size_t i = 0; merges && i < arguments.files.size(); ++i) {
     for (size_t k = 0; k < i; ++k) {
       std::error_code missing;
-      if (!std::filesystem::equivalent(arguments.files[i], arguments.files[k], missing)) continue;
+      if (!fs::equivalent(arguments.files[i], arguments.files[k], missing)) continue;
       throw CLI::ValidationError("files", arguments.files[i] + " is given twice");
     }
   }

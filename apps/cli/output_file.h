@@ -10,6 +10,9 @@
 
 namespace msc_vo {
 
+/// Whether two names are those of the same file, which need not exist yet. Links are followed.
+bool AreSameFile(const std::string& a, const std::string& b);
+
 /// Tests before long work that its result can be written to `file`. Throws std::runtime_error if it
 /// would be written over one of `inputs` (names may be empty) or a part of one of `sequences`, or
 /// if it cannot be written.

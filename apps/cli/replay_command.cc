@@ -20,6 +20,7 @@
 #include "apps/cli/replay_exports.h"
 #include "apps/cli/run_files.h"
 #include "apps/cli/run_identity.h"
+#include "apps/cli/run_paths.h"
 #include "apps/cli/sequence_run.h"
 #include "msc_vo/checkpoint/checkpoint_file.h"
 #include "msc_vo/config/options_file.h"
@@ -84,14 +85,18 @@ struct Resumed {
   RunIdentity identity;
 };
 
-// Begins to write checkpoints, or continues a run, whose checkpoint must be one of `present`.
+// Throws std::runtime_error if the checkpoint is that of another run than `present`.
+void RequireSameRun(const Resumed& resumed, const RunIdentity& present) {
+  const std::string difference = DescribeDifference(resumed.identity, present);
+  if (!difference.empty()) throw std::runtime_error(resumed.file.path() + ": " + difference);
+}
+
+// Begins to write checkpoints, or continues those of a run.
 std::unique_ptr<Checkpoints> MakeCheckpoints(const RunIdentity& present, const std::string& output,
                                              double interval, Resumed* resumed,
                                              const CheckpointedParts& parts) {
   const std::string folder = CheckpointFolder(output);
   if (resumed != nullptr) {
-    const std::string difference = DescribeDifference(resumed->identity, present);
-    if (!difference.empty()) throw std::runtime_error(resumed->file.path() + ": " + difference);
     return std::make_unique<Checkpoints>(std::move(resumed->file), resumed->identity, interval,
                                          parts);
   }
@@ -101,13 +106,15 @@ std::unique_ptr<Checkpoints> MakeCheckpoints(const RunIdentity& present, const s
   return std::make_unique<Checkpoints>(CheckpointFile(folder), present, interval, parts);
 }
 
-// A run that is resumed remains the same session of its map.
+// The identity of a run. One that is resumed must be the same, and remains the same session of its
+// map.
 RunIdentity Identify(const ReplayArguments& arguments, const Configuration& configuration,
                      const RgbdDecoder& decoder, const Resumed* resumed) {
   RunIdentity identity = IdentifyRun(decoder, configuration, arguments.gravity, arguments.map);
   identity.session = resumed != nullptr
                          ? resumed->identity.session
                          : NewSessionName(SequenceName(arguments.sequence.directory));
+  if (resumed != nullptr) RequireSameRun(*resumed, identity);
   return identity;
 }
 
@@ -159,6 +166,29 @@ RgbdDecoder OpenChecked(const ReplayArguments& arguments, const Configuration& c
   return decoder;
 }
 
+// Throws std::runtime_error if a run would write over its inputs, over a file that it writes
+// itself, or over results of another sequence.
+void CheckPaths(const ReplayArguments& arguments, const SequenceIndex& index,
+                const SequenceIdentity& sequence, const std::string& output, bool is_resumed) {
+  RefuseToOverwriteInputs(index, arguments.configuration.InputFiles(), output);
+  RefuseSharedPaths(arguments, index, output);
+  if (!arguments.overwrite && !is_resumed) RefuseToOverwriteOthers(output, sequence);
+}
+
+// Adds the warnings of the checks of the sequence, and a new one if --gravity had no effect.
+void AddWarnings(const std::vector<std::string>& check_warnings, const GravityFactors* gravity,
+                 SequenceRun* run) {
+  std::vector<std::string>& warnings = run->context.sequence.warnings;
+  warnings.insert(warnings.end(), check_warnings.begin(), check_warnings.end());
+  const bool is_complete = run->exit_code == kExitSuccess || run->exit_code == kExitTrackingFailed;
+  if (gravity == nullptr || gravity->HasMeasured() || !is_complete) return;
+  warnings.push_back(
+      "accelerometer.txt: the vertical was never measured, so that --gravity had no effect: "
+      "keyframes must span two seconds or more, and readings must cover 90 % of the time between "
+      "them; are they on the clock of the images?");
+  PrintWarning(warnings.back());
+}
+
 // Seconds between two saves of the map. In real time, images do not wait for the disk.
 double MapInterval(const ReplayArguments& arguments, bool realtime) {
   return realtime ? std::numeric_limits<double>::infinity() : arguments.checkpoint_interval;
@@ -206,9 +236,9 @@ int Run(const ReplayArguments& arguments, Configuration configuration, Resumed* 
   const RgbdDecoder decoder = OpenChecked(arguments, configuration, &check_warnings);
   UseDepthSensorOf(decoder.index(), &configuration.odometry);
   const std::string output = OutputFolder(arguments);
-  RefuseToOverwriteInputs(decoder.index(), arguments.configuration.InputFiles(), output);
   const SequenceIdentity sequence = IdentifySequence(decoder.index());
-  if (!arguments.overwrite && resumed == nullptr) RefuseToOverwriteOthers(output, sequence);
+  CheckPaths(arguments, decoder.index(), sequence, output, resumed != nullptr);
+  const RunIdentity identity = Identify(arguments, configuration, decoder, resumed);
   MakeFolder(output);  // fails before the run if it cannot be created
   *exports = PlanExports(arguments, decoder, output);
   const std::unique_ptr<GravityFactors> gravity =
@@ -216,7 +246,6 @@ int Run(const ReplayArguments& arguments, Configuration configuration, Resumed* 
   const InterruptGuard interrupt;
   RunFiles files(output, sequence);
   ReplayViews views(arguments.view, decoder, configuration, arguments.run.max_frames);
-  const RunIdentity identity = Identify(arguments, configuration, decoder, resumed);
   const bool realtime = configuration.odometry.snapshots.realtime;
   RunMap map(arguments.map, identity.session, MapInterval(arguments, realtime), resumed != nullptr);
   std::unique_ptr<Checkpoints> checkpoints;  // none in real time, which cannot be repeated
@@ -253,8 +282,7 @@ int Run(const ReplayArguments& arguments, Configuration configuration, Resumed* 
     exports->clear();
     return run.exit_code;
   }
-  std::vector<std::string>& warnings = run.context.sequence.warnings;
-  warnings.insert(warnings.end(), check_warnings.begin(), check_warnings.end());
+  AddWarnings(check_warnings, gravity.get(), &run);
   const int exit_code = WriteResults(arguments, output, run, window_problem, &files, &views);
   Conclude(exit_code, output);
   if (exit_code == kExitInterrupted) exports->clear();

@@ -4,11 +4,9 @@
 #include "apps/cli/replay_exports.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <stdexcept>
 
 #include "apps/cli/output_file.h"
-#include "msc_vo/results/result_files.h"
 #include "msc_vo/text/files.h"
 
 namespace msc_vo {
@@ -31,22 +29,6 @@ void CheckBeforeRun(const RunExport& one, const ReplayArguments& arguments,
   if (one.format != "colmap") return CheckOutputFile(one.output, inputs, {sequence.index()});
   RefuseToOverwrite(InputFolders(sequence.index()), one.output);
   MakeFolder(one.output);
-}
-
-// Throws std::runtime_error if a path is that of another export or of a result.
-void RefuseTakenPath(const RunExport& one, const std::vector<RunExport>& others,
-                     const std::string& results) {
-  const std::filesystem::path path = std::filesystem::weakly_canonical(one.output);
-  const auto fail = [&](const std::string& what) {
-    throw std::runtime_error("is also the path of " + what + "; give another one");
-  };
-  for (const RunExport& other : others) {
-    if (std::filesystem::weakly_canonical(other.output) == path) fail(NameOf(other));
-  }
-  if (path.parent_path() != std::filesystem::weakly_canonical(results)) return;
-  for (const std::string& name : ResultFileNames()) {
-    if (path.filename() == name) fail("a result of the run");
-  }
 }
 
 }  // namespace
@@ -81,7 +63,6 @@ std::vector<RunExport> PlanExports(const ReplayArguments& arguments, const RgbdD
       one.sequence.camera.clear();  // the calibration is that of the results
     }
     try {
-      RefuseTakenPath(one, exports, output);
       CheckBeforeRun(one, arguments, sequence);
     } catch (const std::exception& error) {
       throw std::runtime_error(NameOf(one) + ": " + error.what());

@@ -12,11 +12,12 @@
 #include <utility>
 
 #include "apps/cli/command_log.h"
+#include "apps/cli/map_input.h"
 #include "msc_vo/logging/logger.h"
 #include "msc_vo/map_file/map_images.h"
-#include "msc_vo/map_file/map_reader.h"
 #include "msc_vo/matching/local_map.h"
 #include "msc_vo/results/thumbnail.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
@@ -25,6 +26,17 @@ namespace {
 
 bool AreSame(const MapSession& a, const MapSession& b) {
   return a.first_keyframe == b.first_keyframe && a.name == b.name;
+}
+
+// Removes the last session, that of the run, if no keyframe of it is in the maps.
+void LeaveOutEmptySession(const std::vector<SavedSubMap>& submaps,
+                          std::vector<MapSession>* sessions) {
+  const KeyframeId first = sessions->back().first_keyframe;
+  const auto has_own = [first](const SavedSubMap& submap) {
+    const auto& keyframes = submap.map.keyframes();
+    return !keyframes.empty() && keyframes.back().first >= first;
+  };
+  if (std::none_of(submaps.begin(), submaps.end(), has_own)) sessions->pop_back();
 }
 
 // The keyframes of earlier sessions that show most of what the frame shows.
@@ -44,11 +56,15 @@ std::vector<KeyframeId> EarlierKeyframes(const TrackedImage& tracked) {
 }  // namespace
 
 void AddMapArguments(CLI::App* command, MapArguments* arguments) {
+  const auto has_name = [](const std::string& file) -> std::string {
+    return file.empty() ? "the name of the map file is empty" : "";
+  };
   CLI::Option* map =
       command
           ->add_option("--map", arguments->map,
                        "Map file: the run finds itself in it and extends it; created if it does "
                        "not exist")
+          ->check(has_name)
           ->type_name("FILE");
   command
       ->add_flag("--no-map-images", arguments->no_images,
@@ -58,6 +74,7 @@ void AddMapArguments(CLI::App* command, MapArguments* arguments) {
       ->add_option("--localize", arguments->localize,
                    "Map file that is only read: poses are in its world, from the first image on "
                    "that is found in it")
+      ->check(has_name)
       ->type_name("FILE")
       ->excludes(map);
 }
@@ -87,14 +104,16 @@ RunMap::RunMap(const MapArguments& arguments, const std::string& session, double
       resumed_(resumed),
       pause_(interval) {
   if (!arguments.map.empty()) {
+    // The run had opened it before its first checkpoint.
+    if (resumed && !HasEntry(arguments.map)) {
+      throw std::runtime_error(arguments.map +
+                               ": does not exist, but the run had begun to write this map; restore "
+                               "it, or start a new run without --resume");
+    }
     writer_ = std::make_unique<MapWriter>(arguments.map);
     earlier_ = writer_->Load();
   } else if (localizes()) {
-    earlier_ = LoadMap(arguments.localize);
-    if (earlier_.submaps.empty()) {
-      throw std::runtime_error(arguments.localize +
-                               ": has no keyframes; build a map with msc_vo replay --map");
-    }
+    earlier_ = LoadKeyframes(arguments.localize);
   }
   num_worlds_ = static_cast<int>(earlier_.submaps.size());
 }
@@ -158,7 +177,9 @@ std::optional<std::pair<KeyframeId, std::string>> RunMap::FirstImage(
 void RunMap::Save(Odometry* odometry) {
   if (!writer_) return;
   std::optional<MapContents> contents = odometry->ShareMaps(session_);
-  if (!contents || contents->submaps.empty()) return;
+  if (!contents) return;
+  LeaveOutEmptySession(contents->submaps, &contents->sessions);
+  if (contents->submaps.empty() || contents->sessions.empty()) return;
   KeyframeId next = 0;
   for (const SavedSubMap& submap : contents->submaps) {
     next = std::max(next, submap.map.next_keyframe());

@@ -106,4 +106,9 @@ WindowFactors GravityFactors::operator()(const WindowContext& window) {
   return result;
 }
 
+bool GravityFactors::HasMeasured() const {
+  return std::any_of(verticals_.begin(), verticals_.end(),
+                     [](const auto& vertical) { return vertical.second.information > 0.0; });
+}
+
 }  // namespace msc_vo

@@ -48,6 +48,9 @@ class GravityFactors {
   /// Returns the factors of a window; none before the vertical has been measured.
   WindowFactors operator()(const WindowContext& window);
 
+  /// Whether the vertical has been measured in any world.
+  bool HasMeasured() const;
+
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {

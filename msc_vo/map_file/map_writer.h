@@ -42,8 +42,9 @@ class MapWriter {
 };
 
 /// Writes a map. Replaces the map that the file contains, if there is one; the file keeps the
-/// images of keyframes that are also in `contents` (same session, which has a name, and same number
-/// and time stamp of the image). Throws as MapWriter.
+/// images of keyframes that are also in `contents` (same session, which has a name, same number and
+/// time stamp of the image, and at least half of the features have descriptors of the one in the
+/// file). Throws as MapWriter.
 void SaveMap(const std::string& path, MapContents contents, const KeyframeImageSource& images = {});
 
 }  // namespace msc_vo

@@ -9,6 +9,7 @@
 
 #include "tests/apps/command_process.h"
 #include "tests/apps/rendered_sequence.h"
+#include "tests/apps/sample_room.h"
 #include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
@@ -22,8 +23,6 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
-
-const std::string kRoom = std::string(MSC_VO_DATA_FOLDER) + "/room";
 
 class CalibrateCommandTest : public TemporaryFolder {
  protected:

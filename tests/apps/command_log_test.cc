@@ -67,5 +67,27 @@ TEST_F(CommandLogTest, RefusesAFileThatCannotBeWritten) {
   EXPECT_EQ(RunCommand({"replay", "x", "--log-level", "loud"}).exit_code, 2);
 }
 
+TEST_F(CommandLogTest, IsNotAppendedToOtherFiles) {
+  Synthesize();
+  WriteText("options.yaml", "mode: pl-vo\n");
+  WriteText("binary", std::string("text\0text", 9));
+  const auto refuse = [this](std::vector<std::string> arguments, const std::string& file) {
+    const std::string before = ReadFile(Path(file));
+    arguments.insert(arguments.end(), {"--log-file", Path(file)});
+    const CommandOutcome outcome = RunCommand(arguments);
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.output, LineNames("error:", "--log-file", Path(file), "give another"));
+    EXPECT_EQ(ReadFile(Path(file)), before);
+  };
+  refuse({"check", Path("room")}, "room/groundtruth.txt");
+  refuse({"check", Path("room"), "--config=" + Path("options.yaml")}, "options.yaml");
+  refuse({"evaluate", Path("room/groundtruth.txt"), Path("room/groundtruth.txt")},
+         "room/groundtruth.txt");
+  refuse({"check", Path("room")}, "binary");
+  for (int i = 0; i < 2; ++i) {  // a log may be in the folder, and grows there
+    EXPECT_EQ(Replay("room_out", {"--log-file", Path("room/log.txt")}).exit_code, 0);
+  }
+}
+
 }  // namespace
 }  // namespace msc_vo

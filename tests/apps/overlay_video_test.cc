@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "tests/apps/command_process.h"
+#include "tests/apps/sample_room.h"
 #include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
@@ -20,10 +21,8 @@ using testing::HasSubstr;
 
 class OverlayVideoTest : public TemporaryFolder {
  protected:
-  static std::string Room() { return std::string(MSC_VO_DATA_FOLDER) + "/room"; }
-
   CommandOutcome Replay(std::vector<std::string> more) {
-    std::vector<std::string> arguments = {"replay",  Room(),         "--output", Path("out"),
+    std::vector<std::string> arguments = {"replay",  kRoom,          "--output", Path("out"),
                                           "--quiet", "--max-frames", "8"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return RunCommand(arguments);
@@ -74,7 +73,7 @@ TEST_F(OverlayVideoTest, RefusesPortsThatCannotBe) {
     EXPECT_THAT(outcome.output, LineNames("error:", "--view", "port"));
   }
   // The sequence is taken for the port.
-  EXPECT_THAT(RunCommand({"replay", "--view", Room()}).output,
+  EXPECT_THAT(RunCommand({"replay", "--view", kRoom}).output,
               LineNames("error:", "--view", "port"));
   EXPECT_EQ(Replay({"--view-address", "127.0.0.1"}).exit_code, 2);  // without --view
 }

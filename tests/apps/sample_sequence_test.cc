@@ -4,6 +4,7 @@
 // data/room, the sample sequence of the repository.
 
 #include "tests/apps/command_process.h"
+#include "tests/apps/sample_room.h"
 #include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
@@ -15,8 +16,6 @@
 
 namespace msc_vo {
 namespace {
-
-const std::string kRoom = std::string(MSC_VO_DATA_FOLDER) + "/room";
 
 class SampleSequenceTest : public TemporaryFolder {};
 

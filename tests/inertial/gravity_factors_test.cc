@@ -4,7 +4,10 @@
 #include "msc_vo/inertial/gravity_factors.h"
 
 #include <cmath>
+#include <functional>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,8 +22,8 @@
 namespace msc_vo {
 namespace {
 
-constexpr int kFramesPerKeyframe = 10;  // of 30 per second
-constexpr size_t kWindow = 12;          // keyframes, of which the first is fixed
+constexpr int kKeyframeInterval = 10;  // frames, of 30 per second
+constexpr size_t kWindow = 12;         // keyframes, of which the first is fixed
 constexpr double kRotationSigma = 0.02 * kPi / 180.0, kTranslationSigma = 0.002;  // of a step
 
 // A sliding window of keyframes along a walk through a house, whose relative poses are measured
@@ -38,7 +41,7 @@ class Walk {
     const TimedPose first = sequence_.PoseAt(0);
     stamps_ = {first.timestamp};
     truth_ = poses_ = {first.world_from_cam.Inverse()};
-    for (int i = kFramesPerKeyframe; i < num_frames_; i += kFramesPerKeyframe) {
+    for (int i = kKeyframeInterval; i < num_frames_; i += kKeyframeInterval) {
       const TimedPose pose = sequence_.PoseAt(i);
       stamps_.push_back(pose.timestamp);
       truth_.push_back(pose.world_from_cam.Inverse());
@@ -145,6 +148,19 @@ TEST(GravityFactors, AreNoneBeforeTheVerticalIsMeasured) {
   const WindowFactors factors = gravity(window);
   EXPECT_TRUE(factors.factors.empty());
   EXPECT_TRUE(factors.extra_blocks.empty());
+  EXPECT_FALSE(gravity.HasMeasured());
+}
+
+TEST(GravityFactors, SayWhetherTheVerticalWasMeasured) {
+  for (const double offset : {0.0, 1000.0}) {
+    Walk walk(300);
+    std::vector<TimedAcceleration> readings = walk.Readings();
+    for (TimedAcceleration& reading : readings) reading.timestamp += offset;
+    GravityFactors gravity(std::move(readings), GravityOptions());
+    EXPECT_FALSE(gravity.HasMeasured());
+    walk.Run(std::ref(gravity));
+    EXPECT_EQ(gravity.HasMeasured(), offset == 0.0);
+  }
 }
 
 // The vertical of one world says nothing about another one.

@@ -161,6 +161,30 @@ TEST_F(MapImagesTest, ReplacesTheImagesOfAnotherMap) {
   EXPECT_THAT(KeysOf(Images(path_)), ElementsAre(0));
 }
 
+// Replaces the frames of the keyframes by copies that `change` has changed.
+template <typename Change>
+void ChangeFrames(const Change& change, Map* map) {
+  for (KeyframeId id = 0; id < map->next_keyframe(); ++id) {
+    const auto frame = std::make_shared<Frame>(*map->FindKeyframe(id)->frame);
+    for (PointFeature& point : frame->points) change(&point);
+    for (LineFeature& line : frame->lines) change(&line);
+    map->SetFrame(id, frame);
+  }
+}
+
+// Sequences may agree in their names, and in numbers and time stamps of their images.
+TEST_F(MapImagesTest, KeepsOnlyImagesOfKeyframesWithTheSameFeatures) {
+  Map map = random_.Make(3);
+  SaveMap(path_, AsContents(map.Share()), EvenImages('a'));
+  map.Remove<PointLandmark>(map.points().front().first);
+  ChangeFrames([](auto* feature) { feature->sigma *= 1.5; }, &map);
+  SaveMap(path_, AsContents(map.Share()));
+  EXPECT_THAT(KeysOf(Images(path_)), ElementsAre(0, 2));
+  ChangeFrames([](auto* feature) { feature->descriptor[7] ^= 1; }, &map);
+  SaveMap(path_, AsContents(map.Share()));
+  EXPECT_THAT(Images(path_), IsEmpty());
+}
+
 // Numbers and time stamps of images may be the same in any two sequences.
 TEST_F(MapImagesTest, KeepsNoImagesOfASessionWithoutAName) {
   Map map = random_.Make(3);

@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <string_view>
 
+#include "msc_vo/map_file/internal/blob.h"
+#include "msc_vo/map_file/internal/feature_blob.h"
 #include "msc_vo/map_file/internal/map_schema.h"
 #include "msc_vo/map_file/internal/row.h"
 #include "msc_vo/map_file/map_images.h"
@@ -78,6 +81,36 @@ bool IsUndamaged(const SqliteDatabase& database, KeyframeId id) {
   }
 }
 
+// Features of a keyframe in the file, compared with those of a keyframe in memory.
+struct SharedFeatures {
+  size_t num_possible = 0;  // no more than either keyframe has
+  size_t num_shared = 0;    // with the same descriptor
+
+  template <typename L>
+  void Add(const Frame& frame, std::string_view blob) {
+    using Feature = typename L::Feature;
+    std::vector<Feature> stored;
+    DecodeFeatures(blob, &stored);
+    std::set<Descriptor> descriptors;
+    for (const Feature& feature : FeaturesOf<L>(frame)) descriptors.insert(feature.descriptor);
+    num_possible += std::min(stored.size(), FeaturesOf<L>(frame).size());
+    for (const Feature& feature : stored) num_shared += descriptors.count(feature.descriptor);
+  }
+};
+
+// Whether a frame can be that of a keyframe in the file, of which it shares half of the features or
+// more. Pixels change with the calibration, and which features are stored with the landmarks.
+bool ShowsFeatures(const Frame& frame, std::string_view points, std::string_view lines) {
+  SharedFeatures features;
+  try {
+    features.Add<PointLandmark>(frame, points);
+    features.Add<LineLandmark>(frame, lines);
+  } catch (const BlobError&) {
+    return false;
+  }
+  return features.num_shared > 0 && 2 * features.num_shared >= features.num_possible;
+}
+
 }  // namespace
 
 void WriteImage(KeyframeId id, const std::string& jpeg, SqliteStatement* upsert) {
@@ -117,16 +150,17 @@ void CheckImages(const SqliteDatabase& database, const MapContents& contents) {
 void EraseOtherImages(const SqliteDatabase& database, const MapContents& contents) {
   const KeptSessions sessions = SelectSessions(database, contents.sessions);
   SqliteStatement rows = database.Prepare(
-      "SELECT image.keyframe, features.keyframe IS NOT NULL, frame, timestamp FROM image LEFT JOIN "
-      "features ON features.keyframe = image.keyframe");
+      "SELECT image.keyframe, features.keyframe IS NOT NULL, frame, timestamp, points, lines FROM "
+      "image LEFT JOIN features ON features.keyframe = image.keyframe");
   std::vector<KeyframeId> others;
   while (rows.Step()) {
     const KeyframeId id = rows.Integer(0);
     const Keyframe* const keyframe = FindKeyframe(contents, id);
     const bool has_features = rows.Integer(1) != 0;
-    const bool is_same = keyframe != nullptr && AreKept(sessions, id) && has_features &&
-                         keyframe->frame->id == rows.Integer(2) &&
-                         keyframe->frame->timestamp == rows.Real(3) && IsUndamaged(database, id);
+    const bool is_same =
+        keyframe != nullptr && AreKept(sessions, id) && has_features &&
+        keyframe->frame->id == rows.Integer(2) && keyframe->frame->timestamp == rows.Real(3) &&
+        ShowsFeatures(*keyframe->frame, rows.Bytes(4), rows.Bytes(5)) && IsUndamaged(database, id);
     if (!is_same) others.push_back(id);
   }
   SqliteStatement erase = database.Prepare("DELETE FROM image WHERE keyframe = ?");

@@ -29,7 +29,7 @@ void CheckImages(const SqliteDatabase& database, const MapContents& contents);
 
 /// Deletes images before the map `contents` replaces another one. Those of keyframes that both
 /// maps have are left: keyframes of the same session, which has a name, with the same number and
-/// time stamp of the image.
+/// time stamp of the image and descriptors of its features.
 void EraseOtherImages(const SqliteDatabase& database, const MapContents& contents);
 
 }  // namespace msc_vo

@@ -4,11 +4,15 @@
 #include "msc_vo/map_file/internal/sqlite_database.h"
 
 #include <cerrno>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <stdexcept>
+#include <system_error>
 
+#include <fcntl.h>
 #include <sqlite3.h>
+#include <unistd.h>
 
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/write_error.h"
@@ -40,7 +44,18 @@ std::string Describe(sqlite3* database, int result) {
   }
 }
 
-[[noreturn]] void Fail(sqlite3* database, const std::string& path, int result) {
+// `cause`: errno of the call that has failed, if it is known.
+[[noreturn]] void Fail(sqlite3* database, const std::string& path, int result, int cause = 0) {
+  switch (result) {
+    case SQLITE_IOERR_WRITE:
+    case SQLITE_IOERR_FSYNC:
+    case SQLITE_IOERR_DIR_FSYNC:
+    case SQLITE_IOERR_TRUNCATE:
+    case SQLITE_IOERR_DELETE:
+      throw WriteError(path, cause);
+    default:
+      break;
+  }
   switch (result & 0xff) {
     case SQLITE_FULL:
       throw WriteError(path, ENOSPC);
@@ -49,6 +64,32 @@ std::string Describe(sqlite3* database, int result) {
     default:
       throw std::runtime_error(path + ": " + Describe(database, result));
   }
+}
+
+// SQLite would interpret some names, such as ":memory:" and "file:x?mode=memory", and keep the map
+// in memory or in a temporary file; a path that begins with a slash is always the name of a file.
+std::string NameForSqlite(const std::string& path) {
+  if (path.empty()) throw std::runtime_error("the name of the map file is empty; give a name");
+  if (path.find('\0') != std::string::npos) {
+    throw std::runtime_error(
+        path.substr(0, path.find('\0')) +
+        ": a zero byte follows in the name of the map file; give another name");
+  }
+  return std::filesystem::absolute(path).string();
+}
+
+// Throws WriteError unless the file can be written, and its journal, which is beside it (beside the
+// target of a link). SQLite would open the file for reading only.
+void RefuseReadOnly(const std::string& path) {
+  const auto check = [&path](const std::string& entry) {
+    if (faccessat(AT_FDCWD, entry.c_str(), W_OK, AT_EACCESS) != 0) throw WriteError(path, errno);
+  };
+  std::error_code error;
+  const std::filesystem::path target =
+      std::filesystem::weakly_canonical(std::filesystem::absolute(path), error);
+  if (error) throw WriteError(path, error.value());
+  check(target.parent_path().string());
+  if (HasEntry(path)) check(path);
 }
 
 // SQLite takes a file that is shorter than a page for a new one, and would overwrite it.
@@ -115,12 +156,14 @@ void SqliteStatement::BindBlob(int parameter, std::string_view bytes) {
 }
 
 bool SqliteStatement::Step() {
+  errno = 0;
   const int result = sqlite3_step(statement_.get());
+  const int cause = errno;
   if (result == SQLITE_ROW) return true;
   if (result != SQLITE_DONE) {
     // The message of the failed step, which resetting repeats.
     sqlite3_reset(statement_.get());
-    Fail(database_, path_, result);
+    Fail(database_, path_, result, cause);
   }
   Check(sqlite3_reset(statement_.get()));
   return false;
@@ -150,11 +193,13 @@ void SqliteDatabase::Close::operator()(sqlite3* database) const { sqlite3_close(
 // A reader, too, opens the file for writing if it may: a run that was killed may have left a
 // journal from which its last state has to be restored.
 SqliteDatabase::SqliteDatabase(const std::string& path, Access access) : path_(path) {
+  const std::string name = NameForSqlite(path);
   if (access == Access::kRead || HasEntry(path)) RefuseOtherFiles(path);
+  if (access == Access::kWrite) RefuseReadOnly(path);
   const int create = access == Access::kWrite ? SQLITE_OPEN_CREATE : 0;
   sqlite3* database = nullptr;
   const int result =
-      sqlite3_open_v2(path.c_str(), &database, SQLITE_OPEN_READWRITE | create, nullptr);
+      sqlite3_open_v2(name.c_str(), &database, SQLITE_OPEN_READWRITE | create, nullptr);
   database_.reset(database);
   if (result != SQLITE_OK) Fail(database, path, result);
   sqlite3_extended_result_codes(database, 1);
@@ -164,6 +209,7 @@ SqliteDatabase::SqliteDatabase(const std::string& path, Access access) : path_(p
   Execute("PRAGMA trusted_schema = OFF");
   Execute("PRAGMA cell_size_check = ON");
   if (access != Access::kWrite) return;
+  if (sqlite3_db_readonly(database, "main") == 1) throw WriteError(path, EACCES);
   // Of a new file: half the default, as the last page of each blob is half empty on average. An
   // image of 2000 bytes fits into one.
   Execute("PRAGMA page_size = 2048");

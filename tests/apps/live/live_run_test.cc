@@ -17,8 +17,6 @@ namespace {
 using nlohmann::json;
 using std::chrono::milliseconds;
 
-bool Never() { return false; }
-
 class LiveRunTest : public testing::Test {
  protected:
   static LiveRunOptions Options() {
@@ -32,7 +30,7 @@ class LiveRunTest : public testing::Test {
     for (int i = 0; i < count; ++i) {
       scene_.result.timestamp = 0.1 * static_cast<double>(++scene_.result.id);
       run_.Show(scene_.View());
-      run_.Add(scene_.result, Never);
+      run_.Add(scene_.result, [] { return false; });
     }
   }
   // Processes a frame one metre in front of keyframe 0, which the mapper has moved to `x` since the

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// What commands write to map files and beside them.
+
+#include <csignal>
+#include <filesystem>
+
+#include "tests/apps/command_process.h"
+#include "tests/apps/rendered_sequence.h"
+#include "tests/support/message_matchers.h"
+#include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
+#include <opencv2/imgcodecs.hpp>
+#include <unistd.h>
+
+#include "msc_vo/map_file/map_reader.h"
+#include "msc_vo/map_file/map_writer.h"
+#include "msc_vo/text/files.h"
+
+namespace msc_vo {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A sequence `room` and home.map, the map of a run over it.
+class MapOutputTest : public PreparedFolder {
+ protected:
+  void Prepare() override {
+    RenderSequence(Path("room"), {"--scene", "room", "--frames", "30", "--width", "160"});
+    const CommandOutcome outcome = Replay({"--map", Path("home.map")}, "first");
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  }
+  std::vector<std::string> Arguments(const std::vector<std::string>& more,
+                                     const std::string& output = "out",
+                                     const std::string& sequence = "room") const {
+    std::vector<std::string> arguments = {"replay", Path(sequence), "--quiet", "--output",
+                                          Path(output)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  }
+  CommandOutcome Replay(const std::vector<std::string>& more, const std::string& output = "out",
+                        const std::string& sequence = "room") const {
+    return RunCommand(Arguments(more, output, sequence));
+  }
+  // The run is refused before it writes anything.
+  void ExpectRefused(const std::vector<std::string>& more, const std::string& option) const {
+    const CommandOutcome outcome = Replay(more);
+    EXPECT_EQ(outcome.exit_code, 1) << testing::PrintToString(more);
+    EXPECT_THAT(outcome.output, LineNames("error:", option, "give another"));
+    EXPECT_FALSE(HasEntry(Path("out/frames.csv")));
+    EXPECT_FALSE(HasEntry(Path("out/report.html")));
+  }
+  CommandOutcome Export(const std::string& file) const {
+    return RunCommand({"map", "export", Path(file), "--output", Path("export")});
+  }
+  // Kills a run over `room` with new.map after its first checkpoint.
+  void KillRun() const {
+    CommandProcess replay(Arguments({"--map", Path("new.map"), "--checkpoint-interval", "0"}));
+    for (int i = 0; i < 60000 && !HasEntry(Path("out/checkpoint/state.bin")); ++i) usleep(1000);
+    replay.Signal(SIGKILL);
+    ASSERT_EQ(replay.Wait(), -SIGKILL) << replay.output();
+  }
+};
+
+TEST_F(MapOutputTest, RefusesToWriteOverAMap) {
+  const std::string map = ReadFile(Path("home.map"));
+  fs::create_directory(Path("out"));
+  fs::copy_file(Path("home.map"), Path("out/trajectory.txt"));
+  fs::copy_file(Path("home.map"), Path("home.mp4"));
+  fs::create_hard_link(Path("home.map"), Path("link.map"));
+  ExpectRefused({"--map", Path("out/trajectory.txt")}, "--map");
+  ExpectRefused({"--localize", Path("out/../out/trajectory.txt")}, "--localize");
+  ExpectRefused({"--localize", Path("home.mp4"), "--overlay", Path("home.mp4")}, "--overlay");
+  ExpectRefused({"--localize", Path("home.map"), "--log-file", Path("link.map")}, "--log-file");
+  ExpectRefused({"--localize", Path("home.map"), "--export", "tum=" + Path("home.map")},
+                "--export");
+  for (const char* name : {"home.map", "home.mp4", "out/trajectory.txt"}) {
+    EXPECT_TRUE(ReadFile(Path(name)) == map) << name;
+  }
+}
+
+TEST_F(MapOutputTest, RefusesToCreateAMapThatWouldBeWrittenOver) {
+  for (const char* name : {"out/summary.json", "out/map.ply.partial", "out/checkpoint/a.map"}) {
+    ExpectRefused({"--map", Path(name)}, "--map");
+    EXPECT_FALSE(HasEntry(Path(name)));
+  }
+  ExpectRefused({"--map", Path("new.map"), "--export", "tum=" + Path("new.map")}, "--export");
+  ExpectRefused({"--map", Path("new.map"), "--log-file=" + Path("new.map")}, "--log-file");
+  ExpectRefused({"--map", Path("new.map"), "--log-file", Path("new.map-journal")}, "--log-file");
+  EXPECT_FALSE(HasEntry(Path("new.map")));
+  ExpectRefused({"--overlay", Path("a.mp4"), "--export", "tum=" + Path("a.mp4")}, "--export");
+  EXPECT_FALSE(HasEntry(Path("a.mp4")));
+}
+
+TEST_F(MapOutputTest, RefusesToWriteTheVideoOverImages) {
+  const std::string video = Path("room/rgb/a.mp4");
+  ExpectRefused({"--overlay", video}, video);
+}
+
+TEST_F(MapOutputTest, RefusesEmptyNames) {
+  for (const char* option : {"--map", "--localize"}) {
+    const CommandOutcome outcome = Replay({option, ""});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.output, Names(option, "empty"));
+  }
+}
+
+TEST_F(MapOutputTest, ResumesOnlyWithTheMapOfTheRun) {
+  KillRun();
+  const CommandOutcome other =
+      RunCommand({"replay", Path("room"), "--resume", Path("out"), "--map", Path("other.map")});
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_THAT(other.output, LineNames("error:", "--map", Path("new.map"), Path("other.map")));
+  EXPECT_FALSE(HasEntry(Path("other.map")));
+
+  fs::rename(Path("new.map"), Path("moved.map"));
+  const CommandOutcome missing = RunCommand({"replay", "--resume", Path("out"), "--quiet"});
+  EXPECT_EQ(missing.exit_code, 1);
+  EXPECT_THAT(missing.output, LineNames("error:", Path("new.map"), "does not exist", "--resume"));
+  EXPECT_FALSE(HasEntry(Path("new.map")));
+
+  fs::rename(Path("moved.map"), Path("new.map"));
+  EXPECT_EQ(RunCommand({"replay", "--resume", Path("out"), "--quiet"}).exit_code, 0);
+  EXPECT_EQ(SummarizeMap(Path("new.map")).sessions.size(), 1u);
+}
+
+TEST_F(MapOutputTest, LeavesOutASessionWithoutKeyframes) {
+  RenderSequence(Path("blank"), {"--scene", "room", "--frames", "10", "--width", "160"});
+  for (const std::string& image : ListFolder(Path("blank/rgb"))) {
+    cv::imwrite(image, cv::Mat(120, 160, CV_8UC3, cv::Scalar::all(90)));
+  }
+  const MapFileSummary before = SummarizeMap(Path("home.map"));
+  EXPECT_EQ(Replay({"--map", Path("home.map"), "--no-check"}, "out", "blank").exit_code, 3);
+  EXPECT_NO_THROW(CheckMap(Path("home.map")));
+  const MapFileSummary after = SummarizeMap(Path("home.map"));
+  EXPECT_EQ(after.sessions.size(), 1u);
+  EXPECT_EQ(after.sessions.front().num_keyframes, before.sessions.front().num_keyframes);
+}
+
+TEST_F(MapOutputTest, ReplacesAnEarlierExport) {
+  for (const char* name : {"submap_0/keyframes_2.txt", "submap_0/notes.txt", "submap_1/points.ply",
+                           "submap_1/planes.ply", "submap_1/keyframes_12.txt", "submap_2/graph.g2o",
+                           "submap_2/keyframes_a.txt", "submap_a/points.ply"}) {
+    WriteText(std::string("export/") + name, "earlier");
+  }
+  const CommandOutcome outcome = Export("home.map");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  for (const char* name : {"submap_0/keyframes_2.txt", "submap_1", "submap_2/graph.g2o"}) {
+    EXPECT_FALSE(HasEntry(Path("export/") + name)) << name;
+  }
+  for (const char* name :
+       {"submap_0/notes.txt", "submap_2/keyframes_a.txt", "submap_a/points.ply"}) {
+    EXPECT_EQ(ReadFile(Path("export/") + name), "earlier") << name;
+  }
+  EXPECT_TRUE(HasEntry(Path("export/submap_0/keyframes_1.txt")));
+}
+
+TEST_F(MapOutputTest, RefusesToExportOverTheMap) {
+  fs::create_directories(Path("export/submap_0"));
+  fs::copy_file(Path("home.map"), Path("export/submap_0/points.ply"));
+  const CommandOutcome outcome = Export("export/submap_0/points.ply");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.output, LineNames("error:", "points.ply", "another folder"));
+  EXPECT_TRUE(ReadFile(Path("export/submap_0/points.ply")) == ReadFile(Path("home.map")));
+
+  fs::create_directories(Path("model"));
+  fs::copy_file(Path("home.map"), Path("model/points3D.txt"));
+  const CommandOutcome model =
+      RunCommand({"export", Path("model/points3D.txt"), "colmap", Path("model")});
+  EXPECT_EQ(model.exit_code, 1);
+  EXPECT_THAT(model.output, LineNames("error:", "points3D.txt", "input"));
+  EXPECT_TRUE(ReadFile(Path("model/points3D.txt")) == ReadFile(Path("home.map")));
+}
+
+TEST_F(MapOutputTest, RefusesAMapWithoutKeyframes) {
+  MapContents contents;
+  contents.sessions.push_back({0, "nowhere"});
+  SaveMap(Path("none.map"), std::move(contents));
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"map", "export", Path("none.map"), "--output", Path("export")},
+           {"map", "merge", Path("none.map"), Path("home.map"), "--output", Path("all.map")},
+           {"map", "merge", Path("home.map"), Path("none.map"), "--output", Path("all.map")},
+           {"export", Path("none.map"), "g2o", Path("all.g2o")}}) {
+    const CommandOutcome outcome = RunCommand(arguments);
+    EXPECT_EQ(outcome.exit_code, 1) << testing::PrintToString(arguments);
+    EXPECT_THAT(outcome.output, LineNames("error:", Path("none.map"), "has no keyframes"));
+  }
+  for (const char* name : {"export", "all.map", "all.g2o"}) EXPECT_FALSE(HasEntry(Path(name)));
+}
+
+}  // namespace
+}  // namespace msc_vo
