@@ -104,7 +104,7 @@ void RemoveEarlierExport(const std::string& folder) {
   std::vector<fs::path> submaps;
   std::error_code is_missing;
   for (const auto& entry : fs::directory_iterator(folder, is_missing)) {
-    if (IsSubMapFolder(entry.path())) submaps.push_back(entry.path());
+    if (IsSubMapFolder(entry.path()) && !entry.is_symlink()) submaps.push_back(entry.path());
   }
   for (const fs::path& submap : submaps) RemoveExported(submap, &IsExportedFile);
   RemoveExported(fs::path(folder) / kImageFolder, &IsExportedImage);

@@ -97,8 +97,9 @@ void ReadConfiguration(const std::string& path, Configuration* configuration) {
   } catch (const YAML::Exception& error) {
     reader.Fail(error.mark.line + 1, "malformed YAML: " + error.msg);
   }
-  if (documents.size() > 1) {
-    reader.Fail(documents[1].Mark().line + 1,
+  for (size_t i = 1; i < documents.size(); ++i) {
+    if (documents[i].IsNull()) continue;  // behind the last '---'
+    reader.Fail(documents[i].Mark().line + 1,
                 "a second document begins after '---'; write all options in one");
   }
   const YAML::Node root = documents.empty() ? YAML::Node() : documents[0];

@@ -105,17 +105,17 @@ bool IsOrbSlamConfig(const std::string& content) {
 CameraSettings ReadOrbSlamConfig(const std::string& path) {
   Values repeated;
   const Values values = ReadValues(ReadText(path, kMaxOptionsBytes), &repeated);
-  for (const Values::value_type& entry : repeated) {
-    const bool is_read = entry.first.rfind("Camera", 0) == 0 || entry.first == "DepthMapFactor" ||
-                         entry.first == "RGBD.DepthMapFactor";
-    if (is_read) Fail(path, entry, " is given twice; remove one line");
-  }
   // The first of the names that the file contains, with its value; null if it contains none.
   const auto find_entry =
       [&](std::initializer_list<const char*> names) -> const Values::value_type* {
     for (const char* name : names) {
       const auto found = values.find(name);
-      if (found != values.end()) return &*found;
+      if (found == values.end()) continue;
+      const auto again = repeated.find(name);
+      if (again != repeated.end() && again->second.text != found->second.text) {
+        Fail(path, *again, " is given twice; remove one line");
+      }
+      return &*found;
     }
     return nullptr;
   };

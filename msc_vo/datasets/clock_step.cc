@@ -30,19 +30,20 @@ std::vector<AscendingRun> AscendingRuns(const std::vector<ListedImage>& images) 
   return runs;
 }
 
-// The number of images of the run within a range of time.
-size_t CountWithin(double begin, double end, const AscendingRun& run) {
-  const auto first = std::lower_bound(run.stamps.begin(), run.stamps.end(), begin);
-  const auto last = std::upper_bound(run.stamps.begin(), run.stamps.end(), end);
-  return first < last ? static_cast<size_t>(last - first) : 0;
-}
-
-// Tests whether both runs have more images in their common time than displaced ones.
+// Tests whether sorting would interleave two runs: each image of one between two of the other.
+// Parts in another order, and a block of images that is listed late, change runs three times.
 bool AreMixedBySorting(const AscendingRun& a, const AscendingRun& b) {
-  constexpr size_t kMaxDisplaced = 2;
-  const double begin = std::max(a.stamps.front(), b.stamps.front());
-  const double end = std::min(a.stamps.back(), b.stamps.back());
-  return std::min(CountWithin(begin, end, a), CountWithin(begin, end, b)) > kMaxDisplaced;
+  constexpr int kMinChanges = 5;
+  int num_changes = 0;
+  bool in_a = a.stamps.front() <= b.stamps.front();
+  size_t i = 0, j = 0;
+  while (i < a.stamps.size() && j < b.stamps.size()) {
+    const bool takes_a = a.stamps[i] <= b.stamps[j];
+    if (takes_a != in_a) ++num_changes;
+    in_a = takes_a;
+    ++(takes_a ? i : j);
+  }
+  return num_changes >= kMinChanges;
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace msc_vo {
 /// back: a list that ascends otherwise goes back there into a time that it has passed, so that
 /// sorting it would interleave two passages. None if the list ascends, has fewer than ten images,
 /// or is not in order anyway, and where sorting does no harm: for lists that were joined in the
-/// wrong order, one or two displaced images, and rows that are repeated.
+/// wrong order, displaced images, and rows that are repeated.
 std::optional<size_t> FindClockStep(const std::vector<ListedImage>& images);
 
 }  // namespace msc_vo

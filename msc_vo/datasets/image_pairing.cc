@@ -90,13 +90,23 @@ void PairByRow(const ImageLists& images, SequenceIndex* index) {
   const size_t num_rows = images.color.size();
   index->num_listed = num_rows;
   const auto delay = [&](size_t i) { return images.depth[i].stamp - images.color[i].stamp; };
-  std::vector<size_t> apart;  // rows
+  constexpr double kRounding = 1e-6;  // seconds, of stamps since 1970
+  std::vector<double> agreeing;       // delays
   for (size_t i = 0; i < num_rows; ++i) {
-    constexpr double kRounding = 1e-6;  // seconds, of stamps since 1970
-    if (std::abs(delay(i)) > max_difference + kRounding) apart.push_back(i);
+    if (std::abs(delay(i)) <= max_difference + kRounding) agreeing.push_back(delay(i));
   }
   // By chance, few rows agree if the clocks differ.
-  const bool same_clock = 4 * (num_rows - apart.size()) >= num_rows;
+  const bool same_clock = 4 * agreeing.size() >= num_rows;
+  double usual = 0.0;  // delay; that of a sensor may scatter about the limit
+  if (same_clock && !agreeing.empty()) {
+    const auto middle = agreeing.begin() + static_cast<std::ptrdiff_t>(agreeing.size() / 2);
+    std::nth_element(agreeing.begin(), middle, agreeing.end());
+    usual = *middle;
+  }
+  std::vector<size_t> apart;  // rows
+  for (size_t i = 0; i < num_rows; ++i) {
+    if (std::abs(delay(i) - usual) > max_difference + kRounding) apart.push_back(i);
+  }
   for (size_t i = 0; i < num_rows; ++i) {
     if (same_clock && std::binary_search(apart.begin(), apart.end(), i)) continue;
     AddPair(images.color[i], images.depth[i], same_clock ? delay(i) : 0.0, index);

@@ -111,7 +111,7 @@ PoseColumns FormatColumns(bool is_scalar_first) {
 }
 
 // Comma-separated rows with nanoseconds are those of EuRoC. Poses 1 to 5 ms apart could be
-// microseconds at 1 to 5 s, which nobody writes.
+// microseconds at 1 to 5 s, which is implausible.
 bool LooksLikeEuroc(const std::vector<TextLine>& rows) {
   constexpr double kShortest = 1e6;  // nanoseconds
   const std::vector<double> first = NumbersOf(rows, 0);

@@ -16,7 +16,7 @@ constexpr TimeUnit kUnits[] = {TimeUnit::kSeconds, TimeUnit::kMilliseconds, Time
                                TimeUnit::kNanoseconds};
 
 // Shortest median interval of the poses of a trajectory or of the readings of a sensor, seconds.
-constexpr double kMinInterval = 1e-4;
+constexpr double kMinInterval = 2.5e-4;
 
 // Intersection over union of two time ranges, 0..1.
 double Overlap(const TimeRange& a, const TimeRange& b) {
@@ -96,11 +96,12 @@ TimeUnit GuessTimeUnit(const std::vector<double>& stamps, const std::optional<Ti
   };
   const double interval = MedianInterval(stamps);
   TimeUnit best = own;
+  if (overlap_in(reference->unit) > overlap_in(own)) best = reference->unit;
   for (const TimeUnit unit : kUnits) {
     const double seconds = interval / UnitsPerSecond(unit);
     const bool is_plausible = seconds >= kMinInterval && seconds < kMaxImageInterval;
-    if (!is_plausible && unit != reference->unit) continue;
-    if (overlap_in(unit) > overlap_in(best)) best = unit;
+    const double overlap = overlap_in(unit);
+    if (is_plausible && overlap > 0.5 && overlap > overlap_in(best)) best = unit;
   }
   return best;
 }

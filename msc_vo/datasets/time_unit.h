@@ -40,8 +40,8 @@ constexpr double kMaxPoseInterval = 3600.0;
 /// are dates of this century at a median interval of less than `max_interval` seconds, or else the
 /// first one in which the interval is below kMaxImageInterval. If `reference` is given, the range
 /// of other stamps of the same recording, another unit takes precedence if the two ranges overlap
-/// more in it: that of the reference, or any with an interval of 0.1 ms to kMaxImageInterval.
-/// 4 milliseconds may look like 4 seconds otherwise.
+/// more in it: that of the reference; or any in which most of both is common, with an interval of
+/// 0.25 ms to kMaxImageInterval, as 4 milliseconds look like 4 seconds.
 TimeUnit GuessTimeUnit(const std::vector<double>& stamps,
                        const std::optional<TimeRange>& reference = std::nullopt,
                        double max_interval = kMaxPoseInterval);

@@ -33,7 +33,7 @@ std::optional<TrajectoryFormat> TrajectoryFormatFromName(const std::string& name
 struct TrajectoryFile {
   TrajectoryFormat format = TrajectoryFormat::kTum;
   bool has_stamps = true;  ///< otherwise the time stamp of a pose is its row, from 0
-  /// Unit of the stamps in the file, if a header or the format tells it or ConvertToSeconds() has
+  /// Unit of the stamps in the file, if a header or the format names it or ConvertToSeconds() has
   /// guessed it; then the stamps of `poses` are converted to seconds.
   std::optional<TimeUnit> unit;
   std::vector<TimedPose> poses;  ///< world_from_cam, in order of time

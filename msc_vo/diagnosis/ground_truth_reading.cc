@@ -42,6 +42,7 @@ class ReadingSearch {
   TruthReadings Run() const {
     TruthReading given;
     given.offset = OffsetOf(given);
+    if (CompareMotions(track_, truth_, given).size() < kMinPairs) given.offset = 0.0;
     Rate(&given);
     std::vector<TruthReading> simple, combined;
     for (int c = 0; c < kNumPoseConventions; ++c) {

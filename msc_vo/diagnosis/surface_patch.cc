@@ -31,7 +31,7 @@ class QuadraticFit {
   void Add(double x, double y, double value) {
     Coefficients basis;
     basis << 1.0, x, y, x * x, x * y, y * y;
-    matrix_ += basis.lazyProduct(basis.transpose());
+    matrix_ += basis.lazyProduct(basis.transpose());  // faster than a rank update for six rows
     rhs_ += value * basis;
     ++count_;
   }

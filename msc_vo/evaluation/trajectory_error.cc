@@ -234,6 +234,24 @@ int NumInRange(const std::vector<TimedPose>& poses, const std::vector<TimedPose>
   }));
 }
 
+// At common times, the poses of the sparser trajectory should have partners, if the other one is
+// dense enough.
+void WarnOfFewMatches(const std::vector<TimedPose>& reference,
+                      const std::vector<TimedPose>& estimate, double max_time_difference,
+                      TrajectoryError* error) {
+  const int num_estimate = NumInRange(estimate, reference, max_time_difference);
+  const int num_expected = std::min(num_estimate, error->num_reference_in_range);
+  const double common = std::min(reference.back().timestamp, estimate.back().timestamp) -
+                        std::max(reference.front().timestamp, estimate.front().timestamp);
+  const double rate = std::max(num_estimate, error->num_reference_in_range) / common;
+  const double by_chance = std::min(1.0, 2.0 * max_time_difference * rate);
+  if (!(common > 0.0) || error->num_matched >= 0.5 * by_chance * num_expected) return;
+  error->warnings.push_back(FormatText(
+      "only %d of %d poses at common times have a partner within %g s: are the time stamps of both "
+      "in seconds of the same clock?",
+      error->num_matched, num_expected, max_time_difference));
+}
+
 void MeasureCoverage(const std::vector<TimedPose>& reference,
                      const std::vector<TimedPose>& estimate, double max_time_difference,
                      TrajectoryError* error) {
@@ -241,15 +259,7 @@ void MeasureCoverage(const std::vector<TimedPose>& reference,
   error->coverage = static_cast<double>(error->num_matched) / error->num_reference;
   error->coverage_in_range =
       static_cast<double>(error->num_matched) / std::max(error->num_reference_in_range, 1);
-  // Poses of both at the times of the other should match, at least those of the sparser one.
-  const int num_estimate = NumInRange(estimate, reference, max_time_difference);
-  const int num_expected = std::min(num_estimate, error->num_reference_in_range);
-  if (2 * error->num_matched >= num_expected) return;
-  error->warnings.push_back(
-      FormatText("only %d of %d estimated poses have a reference pose within %g s: are the time "
-                 "stamps of both "
-                 "in seconds of the same clock?",
-                 error->num_matched, num_estimate, max_time_difference));
+  WarnOfFewMatches(reference, estimate, max_time_difference, error);
 }
 
 }  // namespace

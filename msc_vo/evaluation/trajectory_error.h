@@ -63,7 +63,8 @@ struct TrajectoryError {
   bool usable = false;  ///< false: there are no errors, `message` names the reason
   std::string message;
   /// What makes the errors doubtful although they are usable: an alignment that is not determined,
-  /// scales or orientations that contradict each other (alignment_check.h).
+  /// scales or orientations that contradict each other (alignment_check.h), few partners at common
+  /// times.
   std::vector<std::string> warnings;
 
   int num_reference = 0;

@@ -17,7 +17,7 @@ namespace {
 constexpr size_t kAhead = 8;
 
 // Words whose lists are renumbered whenever a keyframe comes or goes: all of them are done before
-// half of some 1,000 keyframes have gone, and with 10,000 a share takes 3 ms at most.
+// half of some 1,000 keyframes have gone (docs/lab/loops.md).
 constexpr size_t kRenumberedAtOnce = kNumBinaryWords / 512;
 
 }  // namespace

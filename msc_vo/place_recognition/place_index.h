@@ -47,8 +47,8 @@ class PlaceIndex {
     std::shared_ptr<const Frame> frame;
     int num_words = 0;
   };
-  // Its list keeps the slots of removed keyframes until half of all slots are removed, and it is
-  // this word's turn to be renumbered.
+  // The list keeps the slots of removed keyframes until it is renumbered, after half of all slots
+  // have been removed.
   struct Word {
     PostingList slots;
     int num_keyframes = 0;  // that were not removed

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include <Eigen/LU>
@@ -18,8 +19,8 @@ constexpr int kSteps = 32;  // of a pixel
 // A coordinate in an image of `size` pixels as a pixel and the distance from it in steps;
 // coordinates outside the image become its border.
 std::pair<uint32_t, uint8_t> SplitCoordinate(double coordinate, int size) {
-  const int steps =
-      std::clamp(cvRound(static_cast<float>(coordinate) * kSteps), 0, (size - 1) * kSteps);
+  const auto near = static_cast<float>(std::clamp(coordinate, -1.0, 1.0 * size));
+  const int steps = std::clamp(cvRound(near * kSteps), 0, (size - 1) * kSteps);
   return {steps / kSteps, steps % kSteps};
 }
 
@@ -95,6 +96,17 @@ double LensRemap::Magnification(const Eigen::Vector2d& ideal_pixel) const {
 
 cv::Mat LensRemap::Undistort(const cv::Mat& raw) const {
   if (distortion_.IsZero()) return raw;
+  if (raw.depth() != CV_8U || raw.size() != mask_.size()) {
+    throw std::invalid_argument("LensRemap: the image must have 8 bits and the size of the camera");
+  }
+  if (raw.channels() > 1) {
+    std::vector<cv::Mat> channels;
+    cv::split(raw, channels);
+    for (cv::Mat& channel : channels) channel = Undistort(channel);
+    cv::Mat ideal;
+    cv::merge(channels, ideal);
+    return ideal;
+  }
   cv::Mat bordered;
   cv::copyMakeBorder(raw, bordered, 0, 1, 0, 1, cv::BORDER_REPLICATE);
   cv::Mat ideal(raw.size(), CV_8UC1);

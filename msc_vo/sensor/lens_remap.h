@@ -34,9 +34,10 @@ class LensRemap {
   /// Precomputes the remap tables and the mask for images of `camera`, both of which must be valid.
   LensRemap(const PinholeCamera& camera, const LensDistortion& distortion);
 
-  /// Undistorts a raw image of the camera, CV_8UC1, with bilinear interpolation. Pixels outside it
-  /// repeat its border, which adds no edge; the mask excludes them. Returns the raw image itself
-  /// without distortion.
+  /// Undistorts a raw image of the camera, 8 bits and any number of channels, with bilinear
+  /// interpolation. Pixels outside it repeat its border, which adds no edge; the mask excludes
+  /// them. Returns the raw image itself without distortion. Throws std::invalid_argument if the
+  /// image has another type or size.
   cv::Mat Undistort(const cv::Mat& raw) const;
 
   /// CV_8UC1, 255 at pixels of the ideal image that lie inside the raw image; empty without
@@ -59,8 +60,8 @@ class LensRemap {
  private:
   PinholeCamera camera_;
   LensDistortion distortion_;
-  // Of each pixel of the ideal image, the raw pixel to its upper left in an image with one more
-  // column and row, and how far it is from there towards the right and the bottom, in 32nds of a
+  // For each pixel of the ideal image: the pixel to its upper left in the raw image, which has one
+  // more column and row here, and the distance from there to the right and downwards, in 32nds of a
   // pixel.
   std::vector<uint32_t> raw_pixels_;
   std::vector<uint8_t> right_, down_;

@@ -320,10 +320,9 @@ KeyframeProposal Tracker::ProposeKeyframe(const Input& input, const TrackedFrame
   const bool enables_compensation = snapshot.readout_time != 0.0 && AwaitsCompensation(snapshot) &&
                                     last_.keyframe == snapshot.newest_keyframe;
   const bool is_certain = tracked.status == TrackingStatus::kTracked;
+  const bool is_useful = policy_.IsDue(*tracked.frame, tracked.matches, is_certain);
   // A keyframe at a pose that may be of another place would join the two in the map.
-  const bool is_due =
-      !tracked.is_implausible &&
-      (policy_.IsDue(*tracked.frame, tracked.matches, is_certain) || enables_compensation);
+  const bool is_due = (is_useful || enables_compensation) && !tracked.is_implausible;
   KeyframeProposal proposal;
   proposal.revisit = estimator->Search([&] {
     return places_.FindRevisit(tracked, is_due, snapshot, SecondsSincePrevious(timestamp));

@@ -195,6 +195,7 @@ TEST_F(OptionsFileTest, RefusesMalformedFiles) {
   EXPECT_THAT(ErrorOf("mode: pl-vo\n  x: [1\n"), Names("options.yaml:2", "malformed"));
   EXPECT_THAT(ErrorOf("- 1\n- 2\n"), Names("options.yaml:1", "name: value"));
   EXPECT_THAT(ErrorOf("mode: pl-vo\n---\nfoo: 1\n"), Names("options.yaml:3", "second document"));
+  EXPECT_EQ(ErrorOf("mode: pl-vo\n---\n# end\n"), "");
 }
 
 TEST_F(OptionsFileTest, RefusesTooLargeAndEndlessFiles) {

@@ -50,6 +50,13 @@ TEST(ClockStep, IsNotFoundWhereSortingDoesNoHarm) {
   EXPECT_FALSE(FindClockStep(Images(StampsFrom(5.0, 40))));
   // Parts in the wrong order.
   EXPECT_FALSE(FindClockStep(Images(Joined(StampsFrom(9.0, 20), StampsFrom(5.0, 20)))));
+  std::vector<double> parts;
+  for (const double start : {5.0, 9.0, 7.0, 11.0}) parts = Joined(parts, StampsFrom(start, 20));
+  EXPECT_FALSE(FindClockStep(Images(parts)));
+  // A block that is listed late.
+  std::vector<double> late = StampsFrom(5.0, 40);
+  std::rotate(late.begin() + 10, late.begin() + 13, late.begin() + 25);
+  EXPECT_FALSE(FindClockStep(Images(late)));
   // Neighbours that are exchanged, and an image that is listed late.
   std::vector<double> stamps = StampsFrom(5.0, 40);
   std::swap(stamps[20], stamps[21]);

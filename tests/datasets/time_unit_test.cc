@@ -59,9 +59,17 @@ TEST(GuessTimeUnit, FastStampsHaveTheUnitInWhichTheyCoverTheReference) {
     if (unit == TimeUnit::kSeconds) stamps = seconds;
     EXPECT_EQ(GuessTimeUnit(stamps, images), unit);
   }
-  // Poses at 100 Hz of a longer time than that of the images are not 100,000 poses per second.
-  EXPECT_EQ(GuessTimeUnit(Stamps(0, 0.01), TimeRange{0.0, 1e-4, TimeUnit::kSeconds}),
-            TimeUnit::kSeconds);
+}
+
+TEST(GuessTimeUnit, SparsePosesOfOtherTimesAreSeconds) {
+  const auto unit_of = [](double first, double interval, int count, double images) {
+    std::vector<double> stamps;
+    for (int i = 0; i < count; ++i) stamps.push_back(first + i * interval);
+    return GuessTimeUnit(stamps, TimeRange{0.0, images, TimeUnit::kSeconds});
+  };
+  EXPECT_EQ(unit_of(0.0, 0.2, 10000, 30.0), TimeUnit::kSeconds);  // the images are a part
+  EXPECT_EQ(unit_of(0.0, 1.0, 3600, 60.0), TimeUnit::kSeconds);
+  EXPECT_EQ(unit_of(5000.0, 0.2, 300, 60.0), TimeUnit::kSeconds);  // of another clock
 }
 
 TEST(GuessTimeUnit, PrefersUnitOfReference) {

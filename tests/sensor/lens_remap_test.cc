@@ -4,6 +4,8 @@
 #include "msc_vo/sensor/lens_remap.h"
 
 #include <algorithm>
+#include <stdexcept>
+#include <vector>
 
 #include "tests/features/distortion.h"
 #include "tests/features/drawing.h"
@@ -67,6 +69,11 @@ TEST(LensRemap, InterpolatesAsOpenCvDoes) {
     cv::remap(raw, expected, map, cv::noArray(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
     const cv::Mat ideal = LensRemap(camera, distortion).Undistort(raw);
     EXPECT_EQ(cv::norm(ideal, expected, cv::NORM_INF), 0.0);
+    cv::Mat color, expected_color;
+    cv::merge(std::vector<cv::Mat>{raw, 255 - raw, raw}, color);
+    cv::remap(color, expected_color, map, cv::noArray(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+    EXPECT_EQ(cv::norm(LensRemap(camera, distortion).Undistort(color), expected_color), 0.0);
+    EXPECT_THROW(LensRemap(camera, distortion).Undistort(wide), std::invalid_argument);
   }
 }
 

@@ -99,7 +99,7 @@ struct SharedFeatures {
 };
 
 // Whether a frame can be that of a keyframe in the file, of which it shares half of the features or
-// more. Pixels change with the calibration, and which features are stored with the landmarks.
+// more. Pixels change with the calibration, and landmarks decide which features are stored.
 bool ShowsFeatures(const Frame& frame, std::string_view points, std::string_view lines) {
   SharedFeatures features;
   try {
