@@ -4,11 +4,12 @@
 #include "msc_vo/config/options_file.h"
 
 #include <algorithm>
+#include <cctype>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 #include <variant>
-#include <vector>
 
 #include <yaml-cpp/yaml.h>
 
@@ -82,6 +83,27 @@ class YamlReader {
   std::set<std::string> seen_;
 };
 
+// Returns the line with '---' or '...' between two documents that are not empty; 0 if there is only
+// one. yaml-cpp reads the first one alone, and does not end for some malformed texts if it is asked
+// for all.
+int SecondDocument(const std::string& content) {
+  std::istringstream lines(content);
+  std::string line;
+  bool has_content = false;
+  int marker = 0;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    const std::string start = line.substr(0, 3);
+    const bool is_marker = (start == "---" || start == "...") &&
+                           (line.size() == 3 || std::isspace(static_cast<unsigned char>(line[3])));
+    if (is_marker && has_content) marker = number;
+    const std::string text = Trimmed(is_marker ? line.substr(3) : line);
+    if (text.empty() || text[0] == '#' || text[0] == '%') continue;
+    if (marker > 0) return marker;
+    has_content = true;
+  }
+  return 0;
+}
+
 }  // namespace
 
 void ReadConfiguration(const std::string& path, Configuration* configuration) {
@@ -91,18 +113,15 @@ void ReadConfiguration(const std::string& path, Configuration* configuration) {
     return;
   }
   YamlReader reader(path, ListOptions(configuration));
-  std::vector<YAML::Node> documents;
+  if (const int line = SecondDocument(content); line > 0) {
+    reader.Fail(line, "a second document begins; write all options in one");
+  }
+  YAML::Node root;
   try {
-    documents = YAML::LoadAll(content);
+    root = YAML::Load(content);
   } catch (const YAML::Exception& error) {
     reader.Fail(error.mark.line + 1, "malformed YAML: " + error.msg);
   }
-  for (size_t i = 1; i < documents.size(); ++i) {
-    if (documents[i].IsNull()) continue;  // behind the last '---'
-    reader.Fail(documents[i].Mark().line + 1,
-                "a second document begins after '---'; write all options in one");
-  }
-  const YAML::Node root = documents.empty() ? YAML::Node() : documents[0];
   if (!root.IsMap() && !root.IsNull()) reader.Fail(1, "expected 'name: value' lines");
   configuration->camera.origin = path;
   reader.ReadSection(root, "");

@@ -194,7 +194,8 @@ TEST_F(OptionsFileTest, RefusesMalformedFiles) {
   EXPECT_THAT(ErrorOf("mode: pl-vo\nmode: pl-vo\n"), Names("options.yaml:2", "mode", "twice"));
   EXPECT_THAT(ErrorOf("mode: pl-vo\n  x: [1\n"), Names("options.yaml:2", "malformed"));
   EXPECT_THAT(ErrorOf("- 1\n- 2\n"), Names("options.yaml:1", "name: value"));
-  EXPECT_THAT(ErrorOf("mode: pl-vo\n---\nfoo: 1\n"), Names("options.yaml:3", "second document"));
+  EXPECT_THAT(ErrorOf("mode: pl-vo\n---\nfoo: 1\n"), Names("options.yaml:2", "second document"));
+  EXPECT_THAT(ErrorOf("--- # one\nmode: pl-vo\n...\nfoo: 1\n"), Names("options.yaml:3"));
   EXPECT_EQ(ErrorOf("mode: pl-vo\n---\n# end\n"), "");
 }
 

@@ -201,9 +201,13 @@ TEST(EvaluateTrajectory, DoubtsFewMatchesAtCommonTimes) {
   EXPECT_THAT(EvaluateTrajectory(truth, shifted, options).warnings, testing::IsEmpty());
 
   const std::vector<TimedPose> dense = CurvedPath(3000, 30.0);
-  std::vector<TimedPose> slow;  // 240 poses per second whose milliseconds were read as seconds
-  for (int i = 0; i < 24; ++i)
-    slow.push_back({4.1667 * i + (i % 8 == 0 ? 0.0 : 0.0133), dense[i].world_from_cam});
+  // Every 125th pose, of which one in eight is on time: 240 poses per second whose milliseconds
+  // were read as seconds.
+  std::vector<TimedPose> slow;
+  for (size_t i = 0; i < dense.size(); i += 125) {
+    slow.push_back(dense[i]);
+    if (i % 1000 != 0) slow.back().timestamp += 0.015;
+  }
   options.max_time_difference = 0.01;
   const TrajectoryError error = EvaluateTrajectory(slow, dense, options);
   ASSERT_TRUE(error.usable);
