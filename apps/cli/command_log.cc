@@ -27,38 +27,26 @@ namespace {
 
 std::string log_file;  // set once, before any command runs; empty: none
 
-// Throws std::runtime_error if the log would be appended to `value`, which an argument names, or to
-// a file in that folder that is no log.
-void RefuseFileOf(const std::string& value, const std::string& file, bool is_log) {
-  if (AreSameFile(value, file)) {
-    throw std::runtime_error("--log-file " + file + ": is also the path of another argument, " +
-                             value + "; give another one");
-  }
-  const std::string folder = std::filesystem::absolute(file).parent_path().string();
-  if (is_log || !IsFolder(value) || !AreSameFile(value, folder)) return;
-  throw std::runtime_error("--log-file " + file + ": is a file in " + value +
-                           " that is no log; give another path for the log");
-}
-
-// Refuses files to which no log belongs. Lines of a log begin with a bracket.
+// Throws std::runtime_error if the file is no log, whose lines begin with a bracket, or if another
+// argument names it.
 void CheckLogFile(const std::string& file) {
   constexpr char kOption[] = "--log-file";
-  constexpr size_t kNumBytes = 512;
+  const auto fail = [&file](const std::string& problem) {
+    throw std::runtime_error("--log-file " + file + ": " + problem + "; give another path");
+  };
   const bool exists = FileProblem(file, std::numeric_limits<std::uintmax_t>::max()).empty();
-  const std::string bytes = exists ? ReadBeginning(file, kNumBytes) : "";
-  if (bytes.find('\0') != std::string::npos) {
-    throw std::runtime_error("--log-file " + file +
-                             ": exists and is no text file; give another path for the log");
-  }
-  const bool is_log = bytes.empty() || bytes.front() == '[';
+  const std::string first = exists ? ReadBeginning(file, 1) : "";
+  if (!first.empty() && first != "[") fail("exists and is no log");
   std::string before;
   for (const std::string& argument : CommandArguments()) {
     const bool is_own = before == kOption || argument.rfind(kOption + std::string("="), 0) == 0;
     before = argument;
     if (is_own) continue;
-    RefuseFileOf(argument, file, is_log);
-    for (size_t i = argument.find('='); i != std::string::npos; i = argument.find('=', i + 1)) {
-      RefuseFileOf(argument.substr(i + 1), file, is_log);
+    std::string value = argument;
+    if (AreSameFile(value, file)) fail("is also the path of another argument");
+    for (size_t i = value.find('='); i != std::string::npos; i = value.find('=')) {
+      value = value.substr(i + 1);
+      if (AreSameFile(value, file)) fail("is also the path of another argument");
     }
   }
 }

@@ -20,8 +20,8 @@ struct LogArguments {
 void AddLogArguments(CLI::App* command, LogArguments* arguments);
 
 /// Configures the logger of the library. Lines are appended to the file. Throws std::runtime_error
-/// naming the file if it cannot be written, or if it is no log but another file of the command: one
-/// of its arguments, a file in a folder that is one, or no text file.
+/// naming the file if it cannot be written, exists and is no log, or is another argument of the
+/// command.
 void StartLog(const LogArguments& arguments);
 
 /// The absolute path of the log file; empty if there is none.

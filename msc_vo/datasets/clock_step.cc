@@ -49,6 +49,7 @@ bool AreMixedBySorting(const AscendingRun& a, const AscendingRun& b) {
 }  // namespace
 
 std::optional<size_t> FindClockStep(const std::vector<ListedImage>& images) {
+  // A clock is set back once or twice in a recording; lists with more descents have no order.
   constexpr size_t kMinImages = 10;
   constexpr size_t kMinImagesPerStep = 5;
   const std::vector<AscendingRun> runs = AscendingRuns(images);

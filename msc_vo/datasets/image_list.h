@@ -39,7 +39,8 @@ ImageLists ReadAssociations(const std::string& path, std::vector<std::string>* w
 
 /// Tests whether the rows "time path time path" name the depth image first. The first row whose
 /// images can both be read decides, by their channels and bit depth; if these are alike, or none of
-/// the first ten rows can be read, the word "depth" in the paths of the first row.
+/// the first ten rows can be read, the word "depth" in the paths of the first row, or else its only
+/// image that can be read. `lines` must not be empty.
 bool IsDepthFirst(const std::vector<TextLine>& lines);
 
 /// Returns the path of the association file of a folder; empty if there is none.

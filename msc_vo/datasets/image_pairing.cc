@@ -22,6 +22,12 @@ std::vector<double> StampsOf(const std::vector<ListedImage>& images) {
   return stamps;
 }
 
+double MedianOf(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 // `delay`: seconds from the colour image to the depth image.
 void AddPair(const ListedImage& color, const ListedImage& depth, double delay,
              SequenceIndex* index) {
@@ -86,41 +92,35 @@ void PairByTime(const ImageLists& images, double max_difference, SequenceIndex* 
 }
 
 void PairByRow(const ImageLists& images, SequenceIndex* index) {
+  constexpr double kRounding = 1e-6;  // seconds, of stamps since 1970
   const double max_difference = MaxPairDifference(images);
   const size_t num_rows = images.color.size();
   index->num_listed = num_rows;
   const auto delay = [&](size_t i) { return images.depth[i].stamp - images.color[i].stamp; };
-  constexpr double kRounding = 1e-6;  // seconds, of stamps since 1970
-  std::vector<double> agreeing;       // delays
+  std::vector<double> agreeing;  // delays
   for (size_t i = 0; i < num_rows; ++i) {
     if (std::abs(delay(i)) <= max_difference + kRounding) agreeing.push_back(delay(i));
   }
-  // By chance, few rows agree if the clocks differ.
-  const bool same_clock = 4 * agreeing.size() >= num_rows;
-  double usual = 0.0;  // delay; that of a sensor may scatter about the limit
-  if (same_clock && !agreeing.empty()) {
-    const auto middle = agreeing.begin() + static_cast<std::ptrdiff_t>(agreeing.size() / 2);
-    std::nth_element(agreeing.begin(), middle, agreeing.end());
-    usual = *middle;
-  }
+  const bool same_clock = !agreeing.empty() && 4 * agreeing.size() >= num_rows;
+  // The delay of a sensor may scatter about the limit.
+  const double usual = same_clock ? MedianOf(agreeing) : 0.0;
   std::vector<size_t> apart;  // rows
   for (size_t i = 0; i < num_rows; ++i) {
-    if (std::abs(delay(i) - usual) > max_difference + kRounding) apart.push_back(i);
-  }
-  for (size_t i = 0; i < num_rows; ++i) {
-    if (same_clock && std::binary_search(apart.begin(), apart.end(), i)) continue;
+    const bool is_apart = std::abs(delay(i) - usual) > max_difference + kRounding;
+    if (is_apart) apart.push_back(i);
+    if (same_clock && is_apart) continue;
     AddPair(images.color[i], images.depth[i], same_clock ? delay(i) : 0.0, index);
   }
   if (!apart.empty() && apart.size() < num_rows) {
     const size_t first = apart.front();
     index->warnings.push_back(FormatText(
-        "%s: the stamps of colour and depth differ by %.3f s, and in %zu of %zu rows by more than "
-        "%.0f ms; %s",
+        "%s: the stamps of colour and depth differ by %.3f s, in %zu of %zu rows by more than %.0f "
+        "ms%s",
         images.color[first].origin.c_str(), std::abs(delay(first)), apart.size(), num_rows,
         1e3 * max_difference,
-        same_clock ? "these rows are left out; if their images belong together, write the stamp of "
-                     "the colour image for both"
-                   : "the clocks are taken for different ones and all rows are used; check the "
+        same_clock ? " from the usual delay: these rows are left out; if their images belong "
+                     "together, write the stamp of the colour image for both"
+                   : ": the clocks are taken for different ones and all rows are used; check the "
                      "pairs"));
   }
   if (!same_clock) CheckOffset(images, max_difference, index);

@@ -26,9 +26,10 @@ void PairByTime(const ImageLists& images, double max_difference, SequenceIndex* 
 
 /// Pairs the images at the same position of both lists, whose stamps are in seconds, and adds the
 /// pairs to the entries in their order. If the stamps of at least a quarter of the pairs differ by
-/// no more than MaxPairDifference(), they are of one clock, and the other pairs are left out, with
-/// a warning. Otherwise they are of different clocks: all pairs are added, without a delay, and a
-/// warning if some of the stamps agree or all differ by the same time.
+/// no more than MaxPairDifference(), they are of one clock: pairs whose delay is farther than that
+/// from the median of these are left out, with a warning. Otherwise they are of different clocks,
+/// on which all or few stamps agree by chance: all pairs are added, without a delay, and a warning
+/// if some of the stamps agree or all differ by the same time.
 void PairByRow(const ImageLists& images, SequenceIndex* index);
 
 }  // namespace msc_vo

@@ -15,7 +15,8 @@ namespace {
 constexpr TimeUnit kUnits[] = {TimeUnit::kSeconds, TimeUnit::kMilliseconds, TimeUnit::kMicroseconds,
                                TimeUnit::kNanoseconds};
 
-// Shortest median interval of the poses of a trajectory or of the readings of a sensor, seconds.
+// Shortest median interval of the poses of a trajectory or of the readings of a sensor, seconds. No
+// accelerometer is faster, and seconds at more than 4 Hz are not taken for milliseconds.
 constexpr double kMinInterval = 2.5e-4;
 
 // Intersection over union of two time ranges, 0..1.

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <string>
+#include <vector>
 
 #include "msc_vo/diagnosis/quantile.h"
 #include "msc_vo/sensor/usable_depth.h"
@@ -20,9 +20,9 @@ namespace {
 constexpr double kMinMedian = 0.6, kMaxMedian = 8.0;
 // Raw units per metre of common sources: millimetres, TUM, TUM freiburg2, Replica, 1/256 m, 0.1 mm,
 // ScanNet++ and others in 1/4000 m.
-constexpr double kScales[] = {1000.0, 5000.0, 5208.0, 6553.5, 256.0, 10000.0, 4000.0, 100.0};
+const std::vector<double> kScales = {1000.0, 5000.0, 5208.0, 6553.5, 256.0, 10000.0, 4000.0, 100.0};
 // The same of floating-point numbers: from millimetres to 100 m.
-constexpr double kFloatScales[] = {1000.0, 100.0, 10.0, 1.0, 0.1, 0.01};
+const std::vector<double> kFloatScales = {1000.0, 100.0, 10.0, 1.0, 0.1, 0.01};
 constexpr double kMinValid = 0.2;
 
 bool IsUsual(double median) { return median >= kMinMedian && median <= kMaxMedian; }
@@ -30,10 +30,7 @@ bool IsUsual(double median) { return median >= kMinMedian && median <= kMaxMedia
 // The scales that would give a usual median depth, with the median that each gives.
 std::string LikelyScales(double median, const DepthUnits& units) {
   std::string text;
-  const std::vector<double> scales =
-      units.are_floats ? std::vector<double>(std::begin(kFloatScales), std::end(kFloatScales))
-                       : std::vector<double>(std::begin(kScales), std::end(kScales));
-  for (const double other : scales) {
+  for (const double other : units.are_floats ? kFloatScales : kScales) {
     const double other_median = median * units.per_metre / other;
     if (std::abs(other / units.per_metre - 1.0) < 0.1 || !IsUsual(other_median) ||
         other_median > 5.0) {

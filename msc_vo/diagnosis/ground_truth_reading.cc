@@ -20,15 +20,17 @@ constexpr double kReach = 0.5;       // seconds, of the search for a time offset
 constexpr double kMaxOffset = 0.02;  // seconds
 // Ratio of the disagreements by which another convention or other axes must be better.
 constexpr double kBetter = 0.5;
-// Disagreement of axes that the rotations alone show.
+// Disagreement of axes that the rotations alone show: free axes fit other sequences by chance at
+// about 0.3.
 constexpr double kSureDisagreement = 0.5 * kMaxDisagreement;
 constexpr int kMaxIterations = 20;
-constexpr double kOffsetResolution = 1e-3;      // seconds
-constexpr double kResolution = 0.02;            // disagreement that errors of the images cause
-constexpr double kBetterCorrelation = 0.1;      // by which positions decide between readings
-constexpr double kMuchBetterCorrelation = 0.3;  // of a reading with two changes
-constexpr double kMaxBodyAngle = 5.0;           // degrees
-constexpr double kMaxAxisError = 15.0;          // degrees, of axes that are named
+constexpr double kOffsetResolution = 1e-3;  // seconds
+constexpr double kResolution = 0.02;        // disagreement that errors of the images cause
+// By which positions decide between readings, and for a reading with two changes. Wrong axes are
+// off by 90 degrees or more, which lowers the correlation by about 1.
+constexpr double kBetterCorrelation = 0.1, kMuchBetterCorrelation = 0.3;
+constexpr double kMaxBodyAngle = 5.0;   // degrees
+constexpr double kMaxAxisError = 15.0;  // degrees, of axes that are named
 
 double Degrees(const Eigen::Matrix3d& rotation) {
   return RadiansToDegrees(Eigen::AngleAxisd(rotation).angle());

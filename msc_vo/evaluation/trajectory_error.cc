@@ -234,22 +234,23 @@ int NumInRange(const std::vector<TimedPose>& poses, const std::vector<TimedPose>
   }));
 }
 
-// At common times, the poses of the sparser trajectory should have partners, if the other one is
-// dense enough.
-void WarnOfFewMatches(const std::vector<TimedPose>& reference,
-                      const std::vector<TimedPose>& estimate, double max_time_difference,
-                      TrajectoryError* error) {
+// Why the number of partners is doubtful; empty if it is not. At common times, all poses of the
+// sparser trajectory should have one if the other is dense, or as many as chance gives if it is
+// not.
+std::string DescribeFewMatches(const std::vector<TimedPose>& reference,
+                               const std::vector<TimedPose>& estimate, double max_time_difference,
+                               const TrajectoryError& error) {
   const int num_estimate = NumInRange(estimate, reference, max_time_difference);
-  const int num_expected = std::min(num_estimate, error->num_reference_in_range);
+  const int num_expected = std::min(num_estimate, error.num_reference_in_range);
   const double common = std::min(reference.back().timestamp, estimate.back().timestamp) -
                         std::max(reference.front().timestamp, estimate.front().timestamp);
-  const double rate = std::max(num_estimate, error->num_reference_in_range) / common;
+  const double rate = std::max(num_estimate, error.num_reference_in_range) / common;
   const double by_chance = std::min(1.0, 2.0 * max_time_difference * rate);
-  if (!(common > 0.0) || error->num_matched >= 0.5 * by_chance * num_expected) return;
-  error->warnings.push_back(FormatText(
+  if (!(common > 0.0) || error.num_matched >= 0.5 * by_chance * num_expected) return "";
+  return FormatText(
       "only %d of %d poses at common times have a partner within %g s: are the time stamps of both "
       "in seconds of the same clock?",
-      error->num_matched, num_expected, max_time_difference));
+      error.num_matched, num_expected, max_time_difference);
 }
 
 void MeasureCoverage(const std::vector<TimedPose>& reference,
@@ -259,7 +260,6 @@ void MeasureCoverage(const std::vector<TimedPose>& reference,
   error->coverage = static_cast<double>(error->num_matched) / error->num_reference;
   error->coverage_in_range =
       static_cast<double>(error->num_matched) / std::max(error->num_reference_in_range, 1);
-  WarnOfFewMatches(reference, estimate, max_time_difference, error);
 }
 
 }  // namespace
@@ -323,6 +323,8 @@ TrajectoryError EvaluateTrajectory(const std::vector<TimedPose>& reference,
   if (!error.usable) return error;
   error.warnings = DescribeDoubts(pairs, options);
   MeasureCoverage(truth, compared, options.max_time_difference, &error);
+  const std::string few = DescribeFewMatches(truth, compared, options.max_time_difference, error);
+  if (!few.empty()) error.warnings.push_back(few);
 
   error.scale = ScaleOf(pairs, options.alignment);
   for (PosePair& pair : pairs) pair.estimate.world_from_cam.translation() *= error.scale;

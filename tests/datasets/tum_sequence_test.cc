@@ -163,6 +163,20 @@ TEST_F(TumSequenceTest, LeavesOutAssociationsOfDistantStamps) {
   EXPECT_THAT(ErrorOf(), Names("associations.txt:9", "only", "12", "18", "30", "20 ms"));
 }
 
+// The delay of a sensor varies about the limit of 20 ms.
+TEST_F(TumSequenceTest, KeepsAssociationsWhoseDelayScatters) {
+  std::string rows;
+  for (int i = 0; i < 30; ++i) {
+    rows += FormatText("%.6f rgb/%d %.6f depth/%d\n", i / 30.0, i,
+                       i / 30.0 + 0.015 + 0.001 * (i % 11), i);
+  }
+  WriteText("associations.txt", rows);
+  const SequenceIndex index = OpenSequence(Folder());
+  ASSERT_EQ(index.entries.size(), 30u);
+  EXPECT_NEAR(index.entries[10].depth_delay, 0.025, 2e-6);
+  EXPECT_THAT(index.warnings, IsEmpty());
+}
+
 TEST_F(TumSequenceTest, DistinguishesColumnsByBitDepth) {
   WriteColor("a/1.png");
   WriteDepth("b/1.png");

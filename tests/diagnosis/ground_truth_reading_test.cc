@@ -229,20 +229,20 @@ TEST(DescribeReading, NamesAxes) {
   const auto describe = [&](const Eigen::Matrix3d& axes) {
     return DescriptionOf(FindReading(track, WithAxes(path, axes)).best);
   };
-  EXPECT_THAT(describe(TurnAbout({1, 0, 0}, 180)),
-              ContainsRegex("are x, -y, -z of the camera; rotate"));
-  EXPECT_THAT(describe(TurnAbout({0, 1, 0}, 180)),
-              ContainsRegex("are -x, y, -z of the camera; rotate"));
-  EXPECT_THAT(describe(TurnAbout({0, 0, 1}, 180)),
-              ContainsRegex("are -x, -y, z of the camera; rotate"));
-  EXPECT_THAT(describe(TurnAbout({0, 0, 1}, 90)),
-              ContainsRegex("are y, -x, z of the camera; rotate"));
-  EXPECT_THAT(describe(TurnAbout({1, 0, 0}, 169)),
-              ContainsRegex("are x, -y, -z of the camera up to 11.*degrees"));
-  EXPECT_THAT(describe(TurnAbout({1, 0, 0}, 11)),
-              ContainsRegex("rotated by a 11.* degree turn about x"));
-  EXPECT_THAT(describe(TurnAbout({1, 2, 3}, 37)),
-              ContainsRegex("rotated by a 37.* degree turn about .0.27, 0.5[34], 0.80"));
+  const struct {
+    Eigen::Vector3d axis;
+    double degrees;
+    const char* text;
+  } turns[] = {{{1, 0, 0}, 180, "are x, -y, -z of the camera; rotate"},
+               {{0, 1, 0}, 180, "are -x, y, -z of the camera; rotate"},
+               {{0, 0, 1}, 180, "are -x, -y, z of the camera; rotate"},
+               {{0, 0, 1}, 90, "are y, -x, z of the camera; rotate"},
+               {{1, 0, 0}, 169, "are x, -y, -z of the camera up to 11.*degrees"},
+               {{1, 0, 0}, 11, "rotated by a 11.* degree turn about x"},
+               {{1, 2, 3}, 37, "rotated by a 37.* degree turn about .0.27, 0.5[34], 0.80"}};
+  for (const auto& turn : turns) {
+    EXPECT_THAT(describe(TurnAbout(turn.axis, turn.degrees)), ContainsRegex(turn.text));
+  }
 }
 
 TEST(DescribeReading, NamesMirroredImages) {

@@ -76,8 +76,7 @@ class WindowTermsBuilder {
     auto& reprojections = terms_.Of<LineReprojection>().blocks;
     auto& depths = terms_.Of<LineDepthReprojection>().blocks;
     reprojections.reserve(index_.lines.size());
-    depths.reserve(std::count_if(data_.line_observations.begin(), data_.line_observations.end(),
-                                 [](const auto& o) { return o.has_depth; }));
+    depths.reserve(index_.lines.size());
     for (size_t i = 0; i < index_.lines.size(); ++i) {
       const auto& [keyframe, line] = index_.lines[i];
       const WindowData::LineObservation& o = data_.line_observations[i];

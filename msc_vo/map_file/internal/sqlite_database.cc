@@ -209,7 +209,6 @@ SqliteDatabase::SqliteDatabase(const std::string& path, Access access) : path_(p
   Execute("PRAGMA trusted_schema = OFF");
   Execute("PRAGMA cell_size_check = ON");
   if (access != Access::kWrite) return;
-  if (sqlite3_db_readonly(database, "main") == 1) throw WriteError(path, EACCES);
   // Of a new file: half the default, as the last page of each blob is half empty on average. An
   // image of 2000 bytes fits into one.
   Execute("PRAGMA page_size = 2048");
