@@ -73,7 +73,7 @@ def only_what_helps_cannot_be_written(case, expected):
         file = case.output.with_name(name)
         more = [argument, file]
         if argument == "--log-file":
-            file.write_text("x" * ((limit << 10) - 100) + "\n")  # the log appends
+            file.write_text("[" + "x" * ((limit << 10) - 100) + "\n")  # as a log begins; more is appended
             more += ["--log-level", "debug"]
         code, output = case.replay.run(*case.arguments(), *more, preexec_fn=limit_file_size(limit))
         case.check(code, output, (1,), ("report.html", "written", "File too large"))

@@ -78,7 +78,7 @@ TEST_F(PlaceIndexTest, IsTheSameWhileItIsRenumbered) {
   KeyframeId next = 0, oldest = 0;
   const auto frame_of = [this](KeyframeId id) { return Shared(frames_[id % kNumPlaces]); };
   const auto add = [&] { index.Add(next, frame_of(next)), ++next; };
-  for (int i = 0; i < 200; ++i) add();
+  for (int i = 0; i < 400; ++i) add();
   const Frame seen = Seen(30);
   for (int i = 0; i < 1500; ++i) {
     index.Remove(oldest++);
@@ -86,7 +86,7 @@ TEST_F(PlaceIndexTest, IsTheSameWhileItIsRenumbered) {
     if (i % 100 != 50) continue;
     PlaceIndex straight;
     for (KeyframeId id = oldest; id < next; ++id) straight.Add(id, frame_of(id));
-    ASSERT_EQ(Pairs(index.Query(seen, 200)), Pairs(straight.Query(seen, 200))) << i;
+    ASSERT_EQ(Pairs(index.Query(seen, 400)), Pairs(straight.Query(seen, 400))) << i;
   }
 }
 
