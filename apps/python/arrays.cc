@@ -19,10 +19,6 @@ namespace py = pybind11;
 
 namespace {
 
-[[noreturn]] void Fail(const std::string& name, const std::string& problem) {
-  throw std::invalid_argument(name + ": " + problem);
-}
-
 std::string SizeText(int size, const char* any) { return size < 0 ? any : std::to_string(size); }
 
 using DoubleArray = py::array_t<double, py::array::c_style | py::array::forcecast>;
@@ -36,7 +32,7 @@ DoubleArray FiniteDoubles(py::handle value, const std::string& name) {
   const DoubleArray doubles = Doubles(value, name);
   const double* begin = doubles.data();
   for (py::ssize_t i = 0; i < doubles.size(); ++i) {
-    if (!std::isfinite(begin[i])) Fail(name, "contains a number that is not finite");
+    if (!std::isfinite(begin[i])) FailArgument(name, "contains a number that is not finite");
   }
   return doubles;
 }
@@ -46,8 +42,8 @@ RowMajorMatrix MatrixOf(const DoubleArray& array, const std::string& name, int n
   const bool is_vector = array.ndim() == 1 && num_cols == 1;
   if (!(is_vector || array.ndim() == 2) || (!is_vector && array.shape(1) != num_cols) ||
       (num_rows >= 0 && array.shape(0) != num_rows)) {
-    Fail(name, "expected shape (" + SizeText(num_rows, "N") + ", " + std::to_string(num_cols) +
-                   "), not " + DescribeArray(array));
+    FailArgument(name, "expected shape (" + SizeText(num_rows, "N") + ", " +
+                           std::to_string(num_cols) + "), not " + DescribeArray(array));
   }
   return Eigen::Map<const RowMajorMatrix>(array.data(), array.shape(0), num_cols);
 }
@@ -55,9 +51,9 @@ RowMajorMatrix MatrixOf(const DoubleArray& array, const std::string& name, int n
 // Images share memory with OpenCV, so that their rows must be contiguous.
 void CheckImage(const py::array& array, const std::string& name) {
   if ((array.flags() & py::array::c_style) == 0) {
-    Fail(name, "the array is not C-contiguous; pass numpy.ascontiguousarray(" + name + ")");
+    FailArgument(name, "the array is not C-contiguous; pass numpy.ascontiguousarray(" + name + ")");
   }
-  if (array.size() == 0) Fail(name, "the image is empty: " + DescribeArray(array));
+  if (array.size() == 0) FailArgument(name, "the image is empty: " + DescribeArray(array));
 }
 
 bool HasType(const py::array& array, char kind, int bytes) {
@@ -91,7 +87,8 @@ RowMajorMatrix TimedRowsArgument(py::handle value, const std::string& name, int 
 Eigen::VectorXd VectorArgument(py::handle value, const std::string& name, int size) {
   const DoubleArray array = FiniteDoubles(value, name);
   if (array.ndim() != 1 || (size >= 0 && array.shape(0) != size)) {
-    Fail(name, "expected shape (" + SizeText(size, "N") + ",), not " + DescribeArray(array));
+    FailArgument(name,
+                 "expected shape (" + SizeText(size, "N") + ",), not " + DescribeArray(array));
   }
   return Eigen::Map<const Eigen::VectorXd>(array.data(), array.shape(0));
 }
@@ -106,16 +103,17 @@ std::vector<int64_t> IdsArgument(py::handle value, const std::string& name, int 
   const py::array array = PlainArray(value, name);
   const bool is_empty = array.size() == 0;  // of which NumPy does not know that it holds integers
   if (!is_empty && array.dtype().kind() != 'i' && array.dtype().kind() != 'u') {
-    Fail(name, "expected whole numbers, not " + DescribeArray(array));
+    FailArgument(name, "expected whole numbers, not " + DescribeArray(array));
   }
   if (array.ndim() != 1 || (size >= 0 && array.shape(0) != size)) {
-    Fail(name, "expected shape (" + SizeText(size, "N") + ",), not " + DescribeArray(array));
+    FailArgument(name,
+                 "expected shape (" + SizeText(size, "N") + ",), not " + DescribeArray(array));
   }
   const auto ids = py::array_t<int64_t, py::array::c_style | py::array::forcecast>::ensure(array);
   const std::vector<int64_t> numbers(ids.data(), ids.data() + ids.size());
   const bool wraps = array.dtype().kind() == 'u' &&
                      std::any_of(numbers.begin(), numbers.end(), [](int64_t n) { return n < 0; });
-  if (wraps) Fail(name, "contains a number that 64 bits with a sign cannot hold");
+  if (wraps) FailArgument(name, "contains a number that 64 bits with a sign cannot hold");
   return numbers;
 }
 
@@ -123,7 +121,8 @@ std::vector<bool> FlagsArgument(py::handle value, const std::string& name, int s
   if (value.is_none()) return std::vector<bool>(size, false);
   const py::array array = PlainArray(value, name);
   if (array.ndim() != 1 || array.shape(0) != size || array.dtype().kind() != 'b') {
-    Fail(name, "expected " + std::to_string(size) + " truth values, not " + DescribeArray(array));
+    FailArgument(name,
+                 "expected " + std::to_string(size) + " truth values, not " + DescribeArray(array));
   }
   const auto flags = py::array_t<bool, py::array::c_style | py::array::forcecast>::ensure(array);
   return std::vector<bool>(flags.data(), flags.data() + flags.size());
@@ -134,11 +133,11 @@ Rigid3 PoseArgument(py::handle value, const std::string& name) {
   const RowMajorMatrix matrix = MatrixArgument(value, name, 4, 4);
   const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
   if ((matrix.row(3) - Eigen::RowVector4d(0, 0, 0, 1)).norm() > kTolerance) {
-    Fail(name, "the last row of a pose must be 0 0 0 1");
+    FailArgument(name, "the last row of a pose must be 0 0 0 1");
   }
   if ((rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm() > kTolerance ||
       rotation.determinant() < 0.0) {
-    Fail(name, "the upper left 3x3 block must be a rotation, orthonormal to 1e-6");
+    FailArgument(name, "the upper left 3x3 block must be a rotation, orthonormal to 1e-6");
   }
   return {Eigen::Quaterniond(rotation).normalized(), matrix.topRightCorner<3, 1>()};
 }
@@ -146,7 +145,7 @@ Rigid3 PoseArgument(py::handle value, const std::string& name) {
 std::vector<Rigid3> PosesArgument(py::handle value, const std::string& name) {
   const py::array array = PlainArray(value, name);
   if (array.ndim() != 3 || array.shape(1) != 4 || array.shape(2) != 4) {
-    Fail(name, "expected shape (N, 4, 4), not " + DescribeArray(array));
+    FailArgument(name, "expected shape (N, 4, 4), not " + DescribeArray(array));
   }
   std::vector<Rigid3> poses;
   for (py::ssize_t i = 0; i < array.shape(0); ++i) {
@@ -162,9 +161,9 @@ void CopyNumbers(py::handle value, const std::string& name, py::ssize_t rows, py
                         ? array.ndim() == 1 && array.shape(0) == rows
                         : array.ndim() == 2 && array.shape(0) == rows && array.shape(1) == cols;
   if (!fits) {
-    Fail(name, "expected shape (" + std::to_string(rows) +
-                   (cols < 0 ? "," : ", " + std::to_string(cols)) + "), not " +
-                   DescribeArray(array));
+    FailArgument(name, "expected shape (" + std::to_string(rows) +
+                           (cols < 0 ? "," : ", " + std::to_string(cols)) + "), not " +
+                           DescribeArray(array));
   }
   std::copy_n(array.data(), array.size(), to);
 }
@@ -173,10 +172,10 @@ cv::Mat GrayArgument(py::handle value, const std::string& name) {
   const py::array array = PlainArray(value, name);
   const bool is_gray = array.ndim() == 2;
   const bool is_rgb = array.ndim() == 3 && array.shape(2) == 3;
-  if (!HasType(array, 'u', 1)) Fail(name, "must be uint8, is " + TypeText(array));
+  if (!HasType(array, 'u', 1)) FailArgument(name, "must be uint8, is " + TypeText(array));
   if (!(is_gray || is_rgb)) {
-    Fail(name, "must be of shape (height, width) or, RGB, (height, width, 3), is " +
-                   DescribeArray(array));
+    FailArgument(name, "must be of shape (height, width) or, RGB, (height, width, 3), is " +
+                           DescribeArray(array));
   }
   CheckImage(array, name);
   if (is_gray) return ImageOf(array, value, CV_8UC1);
@@ -192,18 +191,20 @@ cv::Mat DepthArgument(py::handle value, py::handle depth_scale, const std::strin
   const bool is_metric = HasType(array, 'f', 4);
   const bool is_raw = HasType(array, 'u', 2);
   if (!(is_metric || is_raw)) {
-    Fail(name, "must be float32 in metres, or uint16 with depth_scale, is " + TypeText(array));
+    FailArgument(name,
+                 "must be float32 in metres, or uint16 with depth_scale, is " + TypeText(array));
   }
   if (array.ndim() != 2) {
-    Fail(name, "must be of shape (height, width), is " + DescribeArray(array));
+    FailArgument(name, "must be of shape (height, width), is " + DescribeArray(array));
   }
   CheckImage(array, name);
   if (is_metric) {
-    if (!depth_scale.is_none()) Fail(name, "depth_scale is for uint16; float32 is in metres");
+    if (!depth_scale.is_none())
+      FailArgument(name, "depth_scale is for uint16; float32 is in metres");
     return ImageOf(array, value, CV_32FC1);
   }
   if (depth_scale.is_none()) {
-    Fail(name, "uint16 needs depth_scale, the units per metre (such as 1000 or 5000)");
+    FailArgument(name, "uint16 needs depth_scale, the units per metre (such as 1000 or 5000)");
   }
   const double scale = NumberArgument(depth_scale, "depth_scale");
   std::string error;

@@ -28,13 +28,13 @@ PinholeCamera MakeCamera(double fx, double fy, double cx, double cy, int width, 
   return camera;
 }
 
-Eigen::Matrix3d MatrixOf(const PinholeCamera& camera) {
+Eigen::Matrix3d IntrinsicMatrix(const PinholeCamera& camera) {
   Eigen::Matrix3d matrix;
   matrix << camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0;
   return matrix;
 }
 
-std::string Describe(const PinholeCamera& camera) {
+std::string DescribeCamera(const PinholeCamera& camera) {
   return FormatText("Camera(fx=%.10g, fy=%.10g, cx=%.10g, cy=%.10g, width=%d, height=%d)",
                     camera.fx, camera.fy, camera.cx, camera.cy, camera.width, camera.height);
 }
@@ -109,8 +109,8 @@ void BindCamera(py::module_* module) {
       .def_readonly("cy", &PinholeCamera::cy, "Row of the principal point, pixels.")
       .def_readonly("width", &PinholeCamera::width, "Columns of the image.")
       .def_readonly("height", &PinholeCamera::height, "Rows of the image.")
-      .def_property_readonly("matrix", &MatrixOf, "The 3x3 intrinsic matrix.")
-      .def("__repr__", &Describe);
+      .def_property_readonly("matrix", &IntrinsicMatrix, "The 3x3 intrinsic matrix.")
+      .def("__repr__", &DescribeCamera);
   BindLens(module);
 }
 

@@ -67,9 +67,9 @@ DeltaUnit UnitArgument(const std::string& name) {
                               "'");
 }
 
-TrajectoryError Evaluate(const py::object& gt, const py::object& est, const std::string& align,
-                         double max_dt, bool all_poses, double rpe_delta,
-                         const std::string& rpe_unit, bool rpe_all_pairs) {
+TrajectoryError EvaluatePoses(const py::object& gt, const py::object& est, const std::string& align,
+                              double max_dt, bool all_poses, double rpe_delta,
+                              const std::string& rpe_unit, bool rpe_all_pairs) {
   EvaluationOptions options;
   options.max_time_difference = max_dt;
   options.alignment = AlignmentFromString(align);
@@ -95,7 +95,7 @@ RowMajorMatrix PerPoseOf(const TrajectoryError& error) {
   });
 }
 
-std::string Describe(const ErrorStatistics& statistics) {
+std::string DescribeStatistics(const ErrorStatistics& statistics) {
   return FormatText(
       "ErrorStatistics(count=%d, rmse=%.6g, mean=%.6g, median=%.6g, p95=%.6g, "
       "max=%.6g)",
@@ -114,7 +114,7 @@ void BindStatistics(py::module_* module) {
       .def_readonly("max", &ErrorStatistics::max, "Largest error.")
       .def_readonly("std", &ErrorStatistics::std, "Standard deviation about the mean.")
       .def_readonly("sse", &ErrorStatistics::sse, "Sum of squares.")
-      .def("__repr__", &Describe);
+      .def("__repr__", &DescribeStatistics);
   py::class_<RelativeError>(*module, "RelativeError",
                             "Relative pose error (RPE) over a fixed interval or path length.")
       .def_readonly("translation", &RelativeError::translation, "Metres, or metres per metre.")
@@ -182,9 +182,9 @@ void BindEvaluation(py::module_* module) {
   BindStatistics(module);
   BindTrajectoryError(module);
   module->def(
-      "evaluate", &Evaluate, py::arg("gt"), py::arg("est"), py::kw_only(), py::arg("align") = "se3",
-      py::arg("max_dt") = 0.02, py::arg("all_poses") = false, py::arg("rpe_delta") = 1.0,
-      py::arg("rpe_unit") = "frames", py::arg("rpe_all_pairs") = false,
+      "evaluate", &EvaluatePoses, py::arg("gt"), py::arg("est"), py::kw_only(),
+      py::arg("align") = "se3", py::arg("max_dt") = 0.02, py::arg("all_poses") = false,
+      py::arg("rpe_delta") = 1.0, py::arg("rpe_unit") = "frames", py::arg("rpe_all_pairs") = false,
       "Compares trajectories: a file, an (N, 8) array of rows t tx ty tz qx qy qz qw, or a Result. "
       "align: 'se3' (Umeyama), 'sim3' (with scale), 'origin' (first poses) or 'none'. max_dt: "
       "seconds. rpe_delta, rpe_unit ('frames', 'metres', 'seconds'), rpe_all_pairs: the pairs of "

@@ -66,7 +66,7 @@ py::list ItemsOf(py::handle items, const std::string& name, const char* expected
 }
 
 // Residuals and Jacobians at the given blocks, None where the cost function is not defined.
-py::object Evaluate(const PyCost& self, const py::args& blocks) {
+py::object EvaluateCost(const PyCost& self, const py::args& blocks) {
   const std::vector<int32_t>& sizes = self.cost->parameter_block_sizes();
   if (blocks.size() != sizes.size()) {
     throw std::invalid_argument("expected " + std::to_string(sizes.size()) + " blocks, not " +
@@ -113,7 +113,7 @@ void BindCosts(py::module_* module) {
       .def_property_readonly(
           "block_sizes", [](const PyCost& self) { return self.cost->parameter_block_sizes(); },
           "Number of values of each parameter block.")
-      .def("evaluate", &Evaluate, "(residuals, jacobians) at the given blocks, or None.");
+      .def("evaluate", &EvaluateCost, "(residuals, jacobians) at the given blocks, or None.");
   module->def(
       "pose_prior",
       [](const py::object& cam_from_world, const py::object& covariance) {

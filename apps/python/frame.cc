@@ -20,7 +20,7 @@ namespace {
 
 using RowMajor6d = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 
-std::optional<RowMajor6d> MatrixOf(const std::optional<PoseCovariance>& covariance) {
+std::optional<RowMajor6d> CovarianceMatrix(const std::optional<PoseCovariance>& covariance) {
   return covariance ? std::make_optional<RowMajor6d>(*covariance) : std::nullopt;
 }
 
@@ -81,18 +81,18 @@ void BindPoses(py::class_<FrameResult>* frame) {
 void BindCovariances(py::class_<FrameResult>* frame) {
   frame
       ->def_property_readonly(
-          "covariance", [](const FrameResult& self) { return MatrixOf(self.covariance); },
+          "covariance", [](const FrameResult& self) { return CovarianceMatrix(self.covariance); },
           "6x6 of cam_from_world relative to the map nearby: rotation vector in the camera frame "
           "(radians), then translation (metres); None if nothing determines the pose, as in the "
           "frame that begins a world.")
       .def_property_readonly(
           "world_covariance",
-          [](const FrameResult& self) { return MatrixOf(self.world_covariance); },
+          [](const FrameResult& self) { return CovarianceMatrix(self.world_covariance); },
           "6x6 of cam_from_world relative to the origin of the world, with the drift of the map; "
           "tangent and None as covariance.")
       .def_property_readonly(
           "odometry_covariance",
-          [](const FrameResult& self) { return MatrixOf(self.odometry_covariance); },
+          [](const FrameResult& self) { return CovarianceMatrix(self.odometry_covariance); },
           "6x6 of cam_from_odometry, with the drift of the whole path; tangent and None as "
           "covariance.");
 }

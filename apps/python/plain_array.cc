@@ -11,10 +11,6 @@ namespace py = pybind11;
 
 namespace {
 
-[[noreturn]] void Fail(const std::string& name, const std::string& problem) {
-  throw std::invalid_argument(name + ": " + problem);
-}
-
 std::string ShapeText(const py::array& array) {
   std::string text = "(";
   for (py::ssize_t i = 0; i < array.ndim(); ++i) {
@@ -44,9 +40,9 @@ void CheckPlain(py::handle value, const std::string& name) {
     return;
   }
   if (IsMasked(value)) {
-    Fail(name, "has masked elements; pass plain numbers, such as " + name + ".filled(0)");
+    FailArgument(name, "has masked elements; pass plain numbers, such as " + name + ".filled(0)");
   }
-  if (HasUnit(value)) Fail(name, "has a unit, which would be ignored; pass plain numbers");
+  if (HasUnit(value)) FailArgument(name, "has a unit, which would be ignored; pass plain numbers");
 }
 
 bool HasKind(const py::array& array, const char* kinds) {
@@ -54,6 +50,10 @@ bool HasKind(const py::array& array, const char* kinds) {
 }
 
 }  // namespace
+
+void FailArgument(const std::string& name, const std::string& problem) {
+  throw std::invalid_argument(name + ": " + problem);
+}
 
 std::string DescribeArray(const py::array& array) {
   return ShapeText(array) + " of " + std::string(py::str(array.dtype()));
@@ -68,7 +68,7 @@ py::array PlainArray(py::handle value, const std::string& name) {
   py::array array = py::array::ensure(value);
   if (!array) {
     PyErr_Clear();
-    Fail(name, "expected an array, not " + std::string(py::str(py::type::of(value))));
+    FailArgument(name, "expected an array, not " + std::string(py::str(py::type::of(value))));
   }
   const bool is_aligned = (array.flags() & py::detail::npy_api::NPY_ARRAY_ALIGNED_) != 0;
   if (is_aligned && array.dtype().attr("isnative").cast<bool>()) return array;
@@ -77,7 +77,7 @@ py::array PlainArray(py::handle value, const std::string& name) {
 
 py::array NumberArray(py::handle value, const std::string& name) {
   py::array array = PlainArray(value, name);
-  if (!HasKind(array, "fiu")) Fail(name, "expected numbers, not " + DescribeArray(array));
+  if (!HasKind(array, "fiu")) FailArgument(name, "expected numbers, not " + DescribeArray(array));
   return array;
 }
 
@@ -88,7 +88,7 @@ std::string PathArgument(py::handle value) {
 double NumberArgument(py::handle value, const std::string& name) {
   const py::array array = PlainArray(value, name);
   if (array.size() != 1 || !HasKind(array, "fiuO")) {
-    Fail(name, "expected a number, not " + DescribeArray(array));
+    FailArgument(name, "expected a number, not " + DescribeArray(array));
   }
   return py::float_(array.attr("item")()).cast<double>();
 }
@@ -104,8 +104,8 @@ void CheckTimeType(const py::array& times, const std::string& name) {
   const py::module_ numpy = py::module_::import("numpy");
   const py::array steps = numpy.attr("spacing")(numpy.attr("abs")(times));
   if (!(numpy.attr("any")(numpy.attr("greater")(steps, kLargestStep))).cast<bool>()) return;
-  Fail(name, "the type " + std::string(py::str(times.dtype())) +
-                 " rounds these time stamps by more than a millisecond; pass float64");
+  FailArgument(name, "the type " + std::string(py::str(times.dtype())) +
+                         " rounds these time stamps by more than a millisecond; pass float64");
 }
 
 }  // namespace msc_vo

@@ -12,6 +12,9 @@ namespace msc_vo {
 // Python values as arrays of plain numbers, numbers and paths. All functions but IsMasked() throw
 // std::invalid_argument, in Python ValueError, that names the argument.
 
+/// Throws "NAME: PROBLEM".
+[[noreturn]] void FailArgument(const std::string& name, const std::string& problem);
+
 /// "(480, 640, 3) of uint8", for messages.
 std::string DescribeArray(const pybind11::array& array);
 

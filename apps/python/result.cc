@@ -24,7 +24,7 @@ namespace {
 
 // Views of the vectors of a result, which does not change after Finish().
 
-py::array PointsOf(const py::object& self) {
+py::array MapPoints(const py::object& self) {
   const auto& points = self.cast<const OdometryResult&>().points;
   if (points.empty()) return py::cast(RowMajorMatrix(0, 3));
   return ArrayView(points[0].position.data(), {static_cast<py::ssize_t>(points.size()), 3},
@@ -38,7 +38,7 @@ py::array PointObservationsOf(const py::object& self) {
                    {sizeof(MapPoint)}, self);
 }
 
-py::array LinesOf(const py::object& self) {
+py::array MapLines(const py::object& self) {
   static_assert(sizeof(LineSegment3) == 6 * sizeof(double), "start and end are adjacent");
   const auto& lines = self.cast<const OdometryResult&>().lines;
   if (lines.empty()) return py::cast(RowMajorMatrix(0, 6));
@@ -156,7 +156,7 @@ py::object WorldFromAxes(const OdometryResult& result) {
   return py::cast(Eigen::Matrix3d(result.axes.world_from_axes.toRotationMatrix()));
 }
 
-py::dict ExtraBlocksOf(const OdometryResult& result) {
+py::dict ExtraBlocksOfResult(const OdometryResult& result) {
   py::dict blocks;
   for (const ExtraBlock& block : result.extra_blocks) blocks[py::int_(block.id)] = block.value;
   return blocks;
@@ -293,10 +293,10 @@ void BindResult(py::module_* module) {
           "keyframes", [](const OdometryResult& self) { return TrajectoryRows(self.keyframes); },
           "(K, 8), as trajectory, of the keyframes.")
       .def_readonly("frames", &OdometryResult::frames, "FrameResult objects with final poses.")
-      .def_property_readonly("points", &PointsOf, "(P, 3) map points; read-only, not a copy.")
+      .def_property_readonly("points", &MapPoints, "(P, 3) map points; read-only, not a copy.")
       .def_property_readonly("point_observations", &PointObservationsOf,
                              "(P,) number of keyframes that observe each point.")
-      .def_property_readonly("lines", &LinesOf,
+      .def_property_readonly("lines", &MapLines,
                              "(L, 6) start and end of map lines; read-only, not a copy.")
       .def_property_readonly("line_observations", &LineObservationsOf,
                              "(L,) number of keyframes that observe each line.")
@@ -312,7 +312,8 @@ void BindResult(py::module_* module) {
                     "WindowSummary of the last local bundle adjustment.")
       .def_readonly("num_late_maps", &OdometryResult::num_late_maps,
                     "Maps that were late in real time.")
-      .def_property_readonly("extra_blocks", &ExtraBlocksOf, "Estimates of the extra blocks by id.")
+      .def_property_readonly("extra_blocks", &ExtraBlocksOfResult,
+                             "Estimates of the extra blocks by id.")
       .def("write_trajectory", &Write, py::arg("path"),
            "Writes trajectory.txt as `msc_vo replay` does.")
       .def("__repr__", &DescribeResult);

@@ -35,7 +35,7 @@ struct PyTrackedImage {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-RowMajorMatrix PointsOf(const PyTrackedImage& self) {
+RowMajorMatrix FeaturePoints(const PyTrackedImage& self) {
   return Rows(self.Get().features.points, 2,
               [](const PointFeature& point, auto row) { row = point.pixel.transpose(); });
 }
@@ -46,7 +46,7 @@ py::array PointDepthsOf(const PyTrackedImage& self) {
   });
 }
 
-RowMajorMatrix LinesOf(const PyTrackedImage& self) {
+RowMajorMatrix FeatureLines(const PyTrackedImage& self) {
   return Rows(self.Get().features.lines, 4,
               [](const LineFeature& line, auto row) { FillEndPoints(line.segment, row); });
 }
@@ -98,7 +98,7 @@ void BindTrackedImage(py::module_* module) {
       .def_property_readonly(
           "depth", [](const Image& self) { return ImageArray<float>(self.Get().image.depth); },
           "(height, width) float32, metres, as given to process().")
-      .def_property_readonly("points", &PointsOf, "(N, 2) pixels of the point features.")
+      .def_property_readonly("points", &FeaturePoints, "(N, 2) pixels of the point features.")
       .def_property_readonly("point_depths", &PointDepthsOf, "(N,) metres, nan: not measured.")
       .def_property_readonly(
           "point_landmarks",
@@ -107,7 +107,8 @@ void BindTrackedImage(py::module_* module) {
             return LandmarksOf(image.tracked.matches.points, image.features.points.size());
           },
           "(N,) ids in the map of the landmarks that the points observe; -1: none.")
-      .def_property_readonly("lines", &LinesOf, "(M, 4) pixels, both ends of the line features.")
+      .def_property_readonly("lines", &FeatureLines,
+                             "(M, 4) pixels, both ends of the line features.")
       .def_property_readonly("line_depths", &LineDepthsOf,
                              "(M, 2) metres at both ends, nan: not measured.")
       .def_property_readonly(

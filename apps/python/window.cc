@@ -125,13 +125,13 @@ py::list PosePriorsOf(const WindowData& window) {
   return priors;
 }
 
-py::dict ExtraBlocksOf(const WindowData& window) {
+py::dict ExtraBlocksOfWindow(const WindowData& window) {
   py::dict blocks;
   for (const ExtraBlock& block : window.extra_blocks) blocks[py::int_(block.id)] = block.value;
   return blocks;
 }
 
-std::string Describe(const WindowData& window) {
+std::string DescribeWindow(const WindowData& window) {
   return FormatText("<WindowData: %zu keyframes, %zu points, %zu lines>", window.keyframes.size(),
                     window.points.size(), window.lines.size());
 }
@@ -224,7 +224,8 @@ void BindState(WindowClass* window) {
             return self.axes->world_from_axes.toRotationMatrix();
           },
           "3x3 rotation of set_axes(); None without.")
-      .def_property_readonly("extra_blocks", &ExtraBlocksOf, "Values of the extra blocks by id.");
+      .def_property_readonly("extra_blocks", &ExtraBlocksOfWindow,
+                             "Values of the extra blocks by id.");
 }
 
 void BindMeasurements(WindowClass* window) {
@@ -332,7 +333,7 @@ void BindWindow(py::module_* module) {
                return data;
              }),
              py::arg("camera"), "A window without keyframes.");
-  window.def("__repr__", &Describe);
+  window.def("__repr__", &DescribeWindow);
   BindAdders(&window);
   BindState(&window);
   BindMeasurements(&window);
