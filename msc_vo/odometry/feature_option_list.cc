@@ -10,7 +10,8 @@ namespace {
 void ListPoints(PointExtractorOptions* points, OptionLister* list) {
   list->Add("num_points", &points->num_points, {0, 20000, "points"},
             "Largest number of points per image.")
-      .MakeBasic("Increase for long trajectories or scenes with little texture, decrease to save time.");
+      .MakeBasic(
+          "Increase for long trajectories or scenes with little texture, decrease to save time.");
   list->Add("num_levels", &points->num_levels, {1, 32, "levels"},
             "Number of levels of the image pyramid.");
   list->Add("fast_threshold", &points->fast_threshold, {1, 255, "grey values"},
