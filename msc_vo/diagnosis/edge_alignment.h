@@ -17,27 +17,33 @@ constexpr int kNumMirrorings = 4;
 
 /// Agreement of depth edges with image gradients as a function of the shift between the two: the
 /// mean gradient at the depth edges of the shifted image, in standard deviations of the gradients
-/// above their mean. Scores of several images add up.
-struct EdgeAlignment {
+/// above their mean. A depth edge is between the pixels of the nearer and the farther surface.
+struct EdgeScore {
   /// Pixels of the full image per step of the score.
   double step = 1.0;
   /// Largest shift in steps; the score is square with 2 * reach + 1 values on each side.
   int reach = 0;
-  /// CV_32FC1, sum over edge pixels; row: dy + reach, column: dx + reach. A peak at (dx, dy) says
-  /// that the depth edge at pixel p belongs to the image edge at p + (dx, dy).
-  cv::Mat score;
+  /// CV_64FC1, sum over the edges; row: dy + reach, column: dx + reach. A peak at (dx, dy) says
+  /// that the depth edge at p belongs to the image edge at p + (dx, dy).
+  cv::Mat sum;
   int num_edges = 0;  ///< pixels with a depth edge
-  /// Best score within two steps of no shift for each Mirroring of the colour image; sum over edge
-  /// pixels.
+};
+
+/// Scores of an image; those of several images add up.
+struct EdgeAlignment {
+  EdgeScore coarse;  ///< at 320 pixels in width, for large shifts
+  EdgeScore fine;    ///< at 640 pixels in width, for the place of the peak
+  /// Best coarse score within two steps of no shift for each Mirroring of the colour image; sum
+  /// over the edges.
   std::array<double, kNumMirrorings> mirrored_score = {};
 };
 
-/// Peak of a score.
+/// Peak of the scores.
 struct EdgeShift {
   Eigen::Vector2d shift = Eigen::Vector2d::Zero();  ///< pixels of the full image
-  double peak = 0.0;                                ///< mean score at the peak
-  double at_zero = 0.0;                             ///< mean score without a shift
-  double background = 0.0;                          ///< median mean score over all shifts
+  double peak = 0.0;                                ///< mean coarse score at the peak
+  double at_zero = 0.0;                             ///< mean coarse score without a shift
+  double background = 0.0;                          ///< median mean coarse score over all shifts
 };
 
 /// Compares the edges of a depth image (metres, 0: none) with those of a grey image of the same
@@ -47,7 +53,8 @@ EdgeAlignment AlignEdges(const cv::Mat& gray, const cv::Mat& depth, bool tests_m
 /// Adds scores of the same size; an empty sum takes the size of the first.
 void Add(const EdgeAlignment& image, EdgeAlignment* sum);
 
-/// Peak of the score, to a fraction of a step. Zero if there are no edges.
+/// Peak of the coarse score; its place is that of the fine score's peak beside it, if the fine
+/// score reaches as far. To a fraction of a step. Zero if there are no edges.
 EdgeShift FindPeak(const EdgeAlignment& alignment);
 
 }  // namespace msc_vo

@@ -39,15 +39,13 @@ struct Latency {
 };
 
 // Score of an image for a shift in pixels, bilinear; the border value outside.
-double ScoreAt(const EdgeAlignment& edges, const Eigen::Vector2d& shift) {
+double ScoreAt(const EdgeScore& edges, const Eigen::Vector2d& shift) {
   const double limit = 2.0 * edges.reach - 1e-3;
   const double x = std::clamp(shift.x() / edges.step + edges.reach, 0.0, limit);
   const double y = std::clamp(shift.y() / edges.step + edges.reach, 0.0, limit);
   const int column = static_cast<int>(x), row = static_cast<int>(y);
   const double a = x - column, b = y - row;
-  const auto at = [&](int dx, int dy) {
-    return static_cast<double>(edges.score.at<float>(row + dy, column + dx));
-  };
+  const auto at = [&](int dx, int dy) { return edges.sum.at<double>(row + dy, column + dx); };
   return (1.0 - b) * ((1.0 - a) * at(0, 0) + a * at(1, 0)) +
          b * ((1.0 - a) * at(0, 1) + a * at(1, 1));
 }
@@ -58,9 +56,9 @@ class LatencyEstimator {
     for (size_t i = 0; i + 1 < track.images.size(); ++i) {
       const MotionImage& image = track.images[i];
       const MotionImage& next = track.images[i + 1];
-      if (!image.linked || !next.linked || image.edges.num_edges < kMinEdges) continue;
+      if (!image.linked || !next.linked || image.edges.coarse.num_edges < kMinEdges) continue;
       samples_.push_back({&image.edges, 0.5 * (image.velocity + next.velocity), image.depth_delay});
-      num_edges_ += image.edges.num_edges;
+      num_edges_ += image.edges.coarse.num_edges;
     }
   }
 
@@ -99,7 +97,7 @@ class LatencyEstimator {
       if (static_cast<int>(i * kGroups / samples_.size()) == left_out) continue;
       const Sample& sample = samples_[i];
       // Depth that is taken later shows the scene further along: its edges must be moved back.
-      sum += ScoreAt(*sample.edges, shift - (latency + sample.delay) * sample.velocity);
+      sum += ScoreAt(sample.edges->coarse, shift - (latency + sample.delay) * sample.velocity);
     }
     return sum / num_edges_;
   }

@@ -17,8 +17,9 @@ namespace {
 // Edge pixels in all images that a verdict needs.
 constexpr int kMinEdges = 2000;
 // Height of the peak over the background, standard deviations of the gradient; below this the scene
-// has depth edges that the colour does not show.
+// has depth edges that the colour does not show. Images of different scenes reach 16 / sqrt(edges).
 constexpr double kMinPeak = 0.25;
+constexpr double kMinPeakOfOneEdge = 25.0;
 // Largest usual shift, pixels at an image width of 640.
 constexpr double kMaxShift = 5.0;
 // Ratio of the agreement without a shift to that at the peak up to which the shift is certain:
@@ -47,7 +48,7 @@ bool AddMirroring(const EdgeAlignment& sum, const EdgeShift& peak, Findings* fin
   for (int m = 1; m < kNumMirrorings; ++m) {
     if (sum.mirrored_score[m] > sum.mirrored_score[best]) best = m;
   }
-  const double mirrored = sum.mirrored_score[best] / sum.num_edges;
+  const double mirrored = sum.mirrored_score[best] / sum.coarse.num_edges;
   if (best == 0 || mirrored < kMinPeak || mirrored < kMirroredGain * peak.peak) return false;
   findings->push_back(
       Error("registration.mirrored",
@@ -63,10 +64,13 @@ bool AddMirroring(const EdgeAlignment& sum, const EdgeShift& peak, Findings* fin
 double Scatter(const std::vector<EdgeAlignment>& images, const Eigen::Vector2d& shift) {
   std::vector<double> distances;
   for (const EdgeAlignment& image : images) {
-    if (image.num_edges > 200) distances.push_back((FindPeak(image).shift - shift).norm());
+    if (image.coarse.num_edges > 200) distances.push_back((FindPeak(image).shift - shift).norm());
   }
   return Median(std::move(distances));
 }
+
+// Rounds to tenths, without a negative zero.
+double Tenths(double value) { return std::round(10.0 * value) / 10.0 + 0.0; }
 
 }  // namespace
 
@@ -75,12 +79,14 @@ void AddRegistrationFindings(const std::vector<EdgeAlignment>& images, int width
   EdgeAlignment sum;
   for (const EdgeAlignment& image : images) Add(image, &sum);
   const EdgeShift peak = FindPeak(sum);
-  if (sum.num_edges >= kMinEdges && AddMirroring(sum, peak, findings)) return;
-  if (sum.num_edges < kMinEdges || peak.peak - peak.background < kMinPeak) {
+  const int num_edges = sum.coarse.num_edges;
+  if (num_edges >= kMinEdges && AddMirroring(sum, peak, findings)) return;
+  const double min_peak = std::min(kMinPeak, kMinPeakOfOneEdge / std::sqrt(num_edges));
+  if (num_edges < kMinEdges || peak.peak - peak.background < min_peak) {
     findings->push_back(Good("registration.shift",
                              FormatText("registration of depth to colour is not tested: too few "
                                         "common edges (%d depth edge pixels, agreement %.2f)",
-                                        sum.num_edges, peak.peak - peak.background)));
+                                        num_edges, peak.peak - peak.background)));
     return;
   }
   const double distance = peak.shift.norm();
@@ -88,7 +94,7 @@ void AddRegistrationFindings(const std::vector<EdgeAlignment>& images, int width
   const std::string text = FormatText(
       "depth edges agree best with the edges of the colour image if shifted by (%.1f, "
       "%.1f) px (agreement %.2f there, %.2f without a shift; scatter %.1f px)",
-      peak.shift.x(), peak.shift.y(), peak.peak, peak.at_zero, scatter);
+      Tenths(peak.shift.x()), Tenths(peak.shift.y()), peak.peak, peak.at_zero, scatter);
   const Measurement measurement{distance, "px"};
   const bool is_certain =
       peak.at_zero - peak.background < kMaxZeroRatio * (peak.peak - peak.background);

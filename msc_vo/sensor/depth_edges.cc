@@ -14,7 +14,6 @@ namespace msc_vo {
 
 namespace {
 
-constexpr int kReducedWidth = 320;
 // Largest gap without depth, pixels, that an edge may span: the shadow of a structured-light
 // sensor.
 constexpr int kMaxGap = 10;
@@ -24,7 +23,7 @@ constexpr float kMinJump = 0.06f;
 constexpr double kGradientLimit = 6.0;
 constexpr int kBorder = 4;
 
-// Edges along a line of `count` pixels.
+// Edges along a line of `count` pixels: visit(pixel, far_side).
 template <typename At, typename Visit>
 void ScanLine(int count, const At& inverse_depth_at, const Visit& visit) {
   int last = -1;
@@ -33,7 +32,11 @@ void ScanLine(int count, const At& inverse_depth_at, const Visit& visit) {
     const float value = inverse_depth_at(i);
     if (value <= 0.0f) continue;
     if (last >= 0 && i - last <= kMaxGap && std::abs(value - last_value) > kMinJump) {
-      visit(value > last_value ? i : last);
+      if (value > last_value) {
+        visit(i, -1);
+      } else {
+        visit(last, 1);
+      }
     }
     last = i;
     last_value = value;
@@ -66,15 +69,15 @@ std::vector<DepthEdge> FindDepthEdges(const cv::Mat& depth) {
   for (int y = 0; y < depth.rows; ++y) {
     ScanLine(
         depth.cols, [&](int x) { return inverse.at<float>(y, x); },
-        [&](int x) {
-          edges.push_back({x, y, true});
+        [&](int x, int far_side) {
+          edges.push_back({x, y, true, far_side});
         });
   }
   for (int x = 0; x < depth.cols; ++x) {
     ScanLine(
         depth.rows, [&](int y) { return inverse.at<float>(y, x); },
-        [&](int y) {
-          edges.push_back({x, y, false});
+        [&](int y, int far_side) {
+          edges.push_back({x, y, false, far_side});
         });
   }
   return edges;
@@ -100,11 +103,11 @@ double SumAtEdges(const std::vector<DepthEdge>& edges, const EdgeGradients& grad
   return sum;
 }
 
-ReducedImage Reduce(const cv::Mat& gray, const cv::Mat& depth) {
+ReducedImage Reduce(const cv::Mat& gray, const cv::Mat& depth, int width) {
   ReducedImage reduced{gray, depth};
-  reduced.step = std::max(1.0, static_cast<double>(gray.cols) / kReducedWidth);
+  reduced.step = std::max(1.0, static_cast<double>(gray.cols) / width);
   if (reduced.step > 1.0) {
-    const cv::Size size(kReducedWidth, static_cast<int>(std::lround(gray.rows / reduced.step)));
+    const cv::Size size(width, static_cast<int>(std::lround(gray.rows / reduced.step)));
     cv::resize(gray, reduced.gray, size, 0.0, 0.0, cv::INTER_AREA);
     cv::resize(depth, reduced.depth, size, 0.0, 0.0, cv::INTER_NEAREST);
   }

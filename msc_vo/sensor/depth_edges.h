@@ -15,6 +15,9 @@ struct DepthEdge {
   int x = 0;
   int y = 0;
   bool horizontal_jump = false;  ///< the depth jumps along the row
+  /// Side of the farther surface: 1 if it is to the right of the pixel or below it, -1 if it is to
+  /// the left or above.
+  int far_side = 0;
 };
 
 /// The edges of a depth image (CV_32FC1, metres; 0: no measurement).
@@ -31,14 +34,15 @@ EdgeGradients GradientsOf(const cv::Mat& gray);
 double SumAtEdges(const std::vector<DepthEdge>& edges, const EdgeGradients& gradients, int dx,
                   int dy);
 
-/// An RGB-D image reduced to about 320 pixels in width, where an edge is found to a fraction of a
-/// pixel anyway.
+/// An RGB-D image reduced to a smaller width. A pixel of the reduced grey image is the mean of an
+/// area, one of the depth image the value at the first pixel of that area.
 struct ReducedImage {
   cv::Mat gray;
   cv::Mat depth;
   double step = 1.0;  ///< pixels of the full image per pixel
 };
-ReducedImage Reduce(const cv::Mat& gray, const cv::Mat& depth);
+/// Reduces images of more than `width` pixels in width.
+ReducedImage Reduce(const cv::Mat& gray, const cv::Mat& depth, int width = 320);
 
 /// How well depth edges lie on image edges.
 struct EdgeAgreement {
