@@ -263,11 +263,13 @@ std::string DescribeUndetermined(const Poses& reference, const Poses& estimate, 
            " of the alignment";
   }
   const Moments moments = MomentsOf(reference, estimate, 0, reference.size());
-  const double scale = with_scale ? moments.common.sum() / moments.estimate : 1.0;
+  // An error of the scale moves positions along their rays and determines the rotation all the
+  // same.
+  const double scale = moments.common.sum() / moments.estimate;
   const double squares = moments.reference + scale * scale * moments.estimate;
   constexpr double kEpsilon = 1e-14;  // rounding of the moments
   const double error = std::max({squares - 2.0 * scale * moments.common.sum(), kEpsilon * squares,
-                                 std::pow(Rounding(reference) + Rounding(estimate), 2.0)});
+                                 std::pow(Rounding(reference) + scale * Rounding(estimate), 2.0)});
   if (!(scale * moments.common.sum() > error)) {  // also if the squares overflow
     return "the error of the positions (" + Millimetres(error) +
            ") exceeds the motion that both trajectories share (" +

@@ -58,6 +58,11 @@ Pairs PairsByValue(const std::vector<double>& values, double delta, double toler
 
 }  // namespace
 
+bool RelativeDelta::IsValid() const {
+  if (unit != DeltaUnit::kFrames) return value > 0.0;
+  return value >= 1.0 && value <= 1e9 && value == std::floor(value);
+}
+
 std::vector<double> PathLengths(const std::vector<Eigen::Vector3d>& positions) {
   std::vector<double> lengths;
   for (size_t i = 0; i < positions.size(); ++i) {

@@ -20,6 +20,9 @@ struct RelativeDelta {
   /// False: consecutive pairs, each of which begins where the one before ends. True: a pair begins
   /// at every pose.
   bool all_pairs = false;
+
+  /// Whether `value` is positive, and whole and at most 1e9 if it counts frames.
+  bool IsValid() const;
 };
 
 /// Returns the pairs of indices (i, j), i < j, of poses that are `delta` apart.

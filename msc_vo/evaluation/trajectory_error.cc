@@ -4,7 +4,6 @@
 #include "msc_vo/evaluation/trajectory_error.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -17,6 +16,8 @@
 namespace msc_vo {
 
 namespace {
+
+constexpr int kMinMatches = 3;
 
 // Matched poses of reference and estimate, both camera in world.
 struct PosePair {
@@ -188,7 +189,7 @@ std::vector<Rigid3> PosesOf(const std::vector<PosePair>& pairs, TimedPose PosePa
 // Why the pairs cannot be compared; empty if they can.
 std::string DescribeProblem(const std::vector<PosePair>& pairs, const TrajectoryError& error,
                             const EvaluationOptions& options) {
-  if (pairs.size() >= 3) {
+  if (static_cast<int>(pairs.size()) >= kMinMatches) {
     if (options.alignment != Alignment::kSim3) return "";
     if (IsStatic(PosesOf(pairs, &PosePair::estimate))) {
       return "all positions of the estimate are the same, which determines no scale";
@@ -288,19 +289,22 @@ Alignment AlignmentFromString(const std::string& name) {
 }
 
 bool EvaluationOptions::IsValid(std::string* error) const {
-  const bool whole =
-      rpe_delta.unit != DeltaUnit::kFrames || (rpe_delta.value >= 1.0 && rpe_delta.value <= 1e9 &&
-                                               rpe_delta.value == std::floor(rpe_delta.value));
   if (!(max_time_difference >= 0.0)) {
     *error = "evaluation: max_time_difference must not be negative";
   } else if (!(rpe_seconds > 0.0) || !(rpe_metres > 0.0)) {
     *error = "evaluation: rpe_seconds and rpe_metres must be positive";
-  } else if (!(rpe_delta.value > 0.0) || !whole) {
+  } else if (!rpe_delta.IsValid()) {
     *error = "evaluation: rpe_delta must be positive, and a whole number of frames";
   } else {
     return true;
   }
   return false;
+}
+
+std::string DescribeRemedy(const TrajectoryError& error, const std::string& all_poses) {
+  if (error.usable || error.num_matched >= kMinMatches) return "";
+  return error.num_not_estimated > 0 ? all_poses + " compares them"
+                                     : "are the time stamps of both in seconds of the same clock?";
 }
 
 TrajectoryError EvaluateTrajectory(const std::vector<TimedPose>& reference,

@@ -105,6 +105,11 @@ TrajectoryError EvaluateTrajectory(const std::vector<TimedPose>& reference,
                                    const std::vector<TimedPose>& estimate,
                                    const EvaluationOptions& options = {});
 
+/// What to do about a result that is not usable: "--all-poses compares them" if poses were left
+/// out, a question about the clock if few match. Empty if nothing helps. `all_poses`: the name that
+/// the user knows EvaluationOptions::all_poses by.
+std::string DescribeRemedy(const TrajectoryError& error, const std::string& all_poses);
+
 /// Aligns orientations: the rotation minimises the sum of squares of R Q_estimate - Q_reference,
 /// the translation aligns the mean positions. Suited for comparing maps: positions alone do not
 /// determine the rotation about a nearly straight path, which would move every line beside it.

@@ -101,6 +101,23 @@ TEST(DescribeUndetermined, NamesStraightLines) {
   }
 }
 
+// A path that bends by a fifth of its length.
+Poses Bent() {
+  Poses poses = Straight();
+  for (size_t i = 0; i < poses.size(); ++i) {
+    poses[i].translation().x() += 1.3 * std::sin(0.03 * static_cast<double>(i));
+  }
+  return poses;
+}
+
+TEST(DescribeUndetermined, DoesNotCountAWrongScaleAsAnErrorOfPositions) {
+  for (const double scale : {0.001, 0.5, 0.7, 1.3, 3.0, 1000.0}) {
+    EXPECT_THAT(DescribeUndetermined(Bent(), Scaled(Bent(), scale), false), IsEmpty()) << scale;
+    EXPECT_THAT(DescribeUndetermined(Straight(), Scaled(Straight(), scale), false),
+                Names("straight line", "rotation"));
+  }
+}
+
 TEST(DescribeScaleContradiction, NamesTheFactorOfWrongUnits) {
   EXPECT_THAT(DescribeScaleContradiction(Scaled(Path(), 5.0), Path()),
               Names("reference path", "5.0", "depth_scale"));

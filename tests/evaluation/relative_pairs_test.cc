@@ -3,6 +3,8 @@
 
 #include "msc_vo/evaluation/relative_pairs.h"
 
+#include <cmath>
+
 #include <gmock/gmock.h>
 
 namespace msc_vo {
@@ -50,6 +52,16 @@ TEST(RelativePairs, SelectsSeconds) {
               ElementsAre(Pair(0, 2), Pair(1, 3), Pair(2, 4)));
   EXPECT_THAT(PairsAlong(path, {1.5, DeltaUnit::kSeconds, true}),
               IsEmpty());  // beyond the tolerance
+}
+
+TEST(RelativeDelta, IsPositiveAndCountsWholeFrames) {
+  for (const DeltaUnit unit : {DeltaUnit::kFrames, DeltaUnit::kMetres, DeltaUnit::kSeconds}) {
+    EXPECT_TRUE((RelativeDelta{2.0, unit}.IsValid()));
+    EXPECT_EQ((RelativeDelta{1.5, unit}.IsValid()), unit != DeltaUnit::kFrames);
+    for (const double value : {0.0, -1.0, std::nan("")}) {
+      EXPECT_FALSE((RelativeDelta{value, unit}.IsValid())) << value;
+    }
+  }
 }
 
 TEST(RelativePairs, HandlesFewPoses) {

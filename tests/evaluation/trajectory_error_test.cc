@@ -144,6 +144,7 @@ TEST(EvaluateTrajectory, IgnoresPosesThatAreNotEstimated) {
   error = EvaluateTrajectory(truth, estimate);
   EXPECT_FALSE(error.usable);
   EXPECT_THAT(error.message, Names("100", "not estimated"));
+  EXPECT_EQ(DescribeRemedy(error, "--all-poses"), "--all-poses compares them");
 }
 
 TEST(EvaluateTrajectory, DoesNotDependOnWorldFrame) {
@@ -221,6 +222,8 @@ TEST(EvaluateTrajectory, IsNotUsableWithTooFewMatches) {
   const TrajectoryError error = EvaluateTrajectory(truth, estimate);
   EXPECT_FALSE(error.usable);
   EXPECT_THAT(error.message, Names("0", "100"));
+  EXPECT_THAT(DescribeRemedy(error, "--all-poses"), Names("clock"));
+  EXPECT_EQ(DescribeRemedy(EvaluateTrajectory(truth, truth), "--all-poses"), "");
   EXPECT_FALSE(EvaluateTrajectory({}, {}).usable);
 }
 
