@@ -23,23 +23,28 @@ namespace py = pybind11;
 
 namespace {
 
-std::vector<TimedPose> PosesOfRows(const RowMajorMatrix& rows, const std::string& name) {
-  std::vector<TimedPose> poses;
+// The poses of the rows "t tx ty tz qx qy qz qw", read as a file without a header.
+TrajectoryFile TrajectoryOfRows(const RowMajorMatrix& rows, const std::string& name) {
+  TrajectoryFile trajectory;
+  std::vector<TimedPose>& poses = trajectory.poses;
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {
     const auto pose = rows.row(i).tail<7>();
     if (std::isfinite(rows(i, 0)) && pose.array().isNaN().all()) continue;  // a frame without one
-    const std::string row = name + ": row " + std::to_string(i);
-    if (!rows.row(i).allFinite()) throw std::invalid_argument(row + " is not finite");
+    if (!rows.row(i).allFinite()) {
+      ++trajectory.num_left_out;
+      continue;
+    }
     const Eigen::Quaterniond q(rows(i, 7), rows(i, 4), rows(i, 5), rows(i, 6));
     if (std::abs(q.norm() - 1.0) > 0.05) {
-      throw std::invalid_argument(row + ": the quaternion is not of unit length");
+      throw std::invalid_argument(name + ": row " + std::to_string(i) +
+                                  ": the quaternion is not of unit length");
     }
     poses.push_back({rows(i, 0), Rigid3(q.normalized(), rows.row(i).segment<3>(1).transpose())});
   }
   std::stable_sort(poses.begin(), poses.end(), [](const TimedPose& a, const TimedPose& b) {
     return a.timestamp < b.timestamp;
   });
-  return poses;
+  return trajectory;
 }
 
 void Warn(const std::string& text) {
@@ -51,12 +56,21 @@ TrajectoryFile TrajectoryArgument(const py::object& value, const std::string& na
   if (py::isinstance<py::str>(value) || py::hasattr(value, "__fspath__")) {
     return ReadTrajectoryFile(PathArgument(value));
   }
+  if (!py::isinstance<OdometryResult>(value)) {
+    return TrajectoryOfRows(TimedRowsArgument(value, name, 8), name);
+  }
   TrajectoryFile trajectory;
   trajectory.unit = TimeUnit::kSeconds;
-  trajectory.poses = py::isinstance<OdometryResult>(value)
-                         ? TrajectoryOf(value.cast<const OdometryResult&>())
-                         : PosesOfRows(TimedRowsArgument(value, name, 8), name);
+  trajectory.poses = TrajectoryOf(value.cast<const OdometryResult&>());
   return trajectory;
+}
+
+// Adds a warning about rows that are not finite.
+void WarnOfSkippedRows(const TrajectoryFile& trajectory, const std::string& name,
+                       std::vector<std::string>* warnings) {
+  if (trajectory.num_left_out == 0) return;
+  warnings->push_back(FormatText("%s: %d rows with nan or inf are left out", name.c_str(),
+                                 trajectory.num_left_out));
 }
 
 DeltaUnit UnitArgument(const std::string& name) {
@@ -67,6 +81,17 @@ DeltaUnit UnitArgument(const std::string& name) {
                               "'");
 }
 
+void RequireValid(const EvaluationOptions& options) {
+  if (!(options.max_time_difference >= 0.0)) {
+    throw std::invalid_argument("max_dt: must not be negative");
+  }
+  if (!options.rpe_delta.IsValid()) {
+    throw std::invalid_argument(options.rpe_delta.unit == DeltaUnit::kFrames
+                                    ? "rpe_delta: must be a whole number of frames, 1 or more"
+                                    : "rpe_delta: must be positive");
+  }
+}
+
 TrajectoryError EvaluatePoses(const py::object& gt, const py::object& est, const std::string& align,
                               double max_dt, bool all_poses, double rpe_delta,
                               const std::string& rpe_unit, bool rpe_all_pairs) {
@@ -75,15 +100,20 @@ TrajectoryError EvaluatePoses(const py::object& gt, const py::object& est, const
   options.alignment = AlignmentFromString(align);
   options.all_poses = all_poses;
   options.rpe_delta = {rpe_delta, UnitArgument(rpe_unit), rpe_all_pairs};
-  std::string problem;
-  if (!options.IsValid(&problem)) throw std::invalid_argument("max_dt, rpe_delta: " + problem);
+  RequireValid(options);
   TrajectoryFile reference = TrajectoryArgument(gt, "gt");
   TrajectoryFile estimate = TrajectoryArgument(est, "est");
   std::vector<std::string> warnings;
+  WarnOfSkippedRows(reference, "gt", &warnings);
+  WarnOfSkippedRows(estimate, "est", &warnings);
   ConvertToSeconds("gt", "est", &reference, &estimate, &warnings);
   ShareStamps("gt", "est", &reference, &estimate);
   TrajectoryError error = EvaluateTrajectory(reference.poses, estimate.poses, options);
-  if (!error.usable) throw std::invalid_argument(error.message);
+  if (!error.usable) {
+    for (const std::string& warning : warnings) Warn(warning);
+    const std::string remedy = DescribeRemedy(error, "all_poses=True");
+    throw std::invalid_argument(error.message + (remedy.empty() ? "" : "; " + remedy));
+  }
   error.warnings.insert(error.warnings.begin(), warnings.begin(), warnings.end());
   for (const std::string& warning : error.warnings) Warn(warning);
   return error;
@@ -186,12 +216,14 @@ void BindEvaluation(py::module_* module) {
       py::arg("align") = "se3", py::arg("max_dt") = 0.02, py::arg("all_poses") = false,
       py::arg("rpe_delta") = 1.0, py::arg("rpe_unit") = "frames", py::arg("rpe_all_pairs") = false,
       "Compares trajectories: a file, an (N, 8) array of rows t tx ty tz qx qy qz qw, or a Result. "
+      "Rows with nan or inf are left out, and stamps in milliseconds, microseconds or nanoseconds "
+      "are "
+      "converted, both with a warning. "
       "align: 'se3' (Umeyama), 'sim3' (with scale), 'origin' (first poses) or 'none'. max_dt: "
       "seconds. rpe_delta, rpe_unit ('frames', 'metres', 'seconds'), rpe_all_pairs: the pairs of "
       "TrajectoryError.rpe, as --delta, --delta-unit and --all-pairs of `msc_vo evaluate`. "
       "Raises ValueError if fewer than three poses match or the alignment has no scale, and warns "
-      "of "
-      "what is in TrajectoryError.warnings.");
+      "of what is in TrajectoryError.warnings.");
 }
 
 }  // namespace msc_vo

@@ -49,6 +49,48 @@ class Evaluate(unittest.TestCase):
         np.savetxt("kitti.txt", kitti)
         self.assertLess(msc_vo.evaluate(rows, "kitti.txt").ape.max, 1e-9)
 
+    def test_rows_that_are_not_finite_are_left_out_as_those_of_files(self):
+        broken = path()
+        broken[3, 2] = np.nan
+        broken[50, 0] = np.inf
+        broken[70, 1:] = np.nan  # a frame without a pose
+        np.savetxt("broken.txt", np.delete(broken, 70, axis=0))
+        for est in (broken, "broken.txt"):
+            with self.assertWarnsRegex(UserWarning, "est: 2 rows with nan or inf are left out"):
+                error = msc_vo.evaluate(path(), est)
+            self.assertEqual((error.num_estimate, error.num_matched), (98, 98))
+            self.assertEqual(len(error.warnings), 1)
+        with self.assertWarnsRegex(UserWarning, "gt: 2 rows"):
+            self.assertEqual(msc_vo.evaluate(broken, path()).num_reference, 98)
+
+    def test_stamps_in_other_units_are_converted_as_those_of_files(self):
+        for factor, unit in [(1e3, "milliseconds"), (1e6, "microseconds"), (1e9, "nanoseconds")]:
+            other = path()
+            other[:, 0] *= factor
+            np.savetxt("other.txt", other)
+            for est in (other, "other.txt"):
+                with self.assertWarnsRegex(UserWarning, f"est: the time stamps are {unit}"):
+                    error = msc_vo.evaluate(path(), est)
+                self.assertEqual(error.num_matched, 101)
+                self.assertAlmostEqual(error.per_pose[-1, 0], 10.0)
+                with self.assertWarnsRegex(UserWarning, f"gt: the time stamps are {unit}"):
+                    self.assertEqual(msc_vo.evaluate(est, path()).num_matched, 101)
+
+    def test_other_clocks_are_asked_about(self):
+        later = path()
+        later[:, 0] += 1e6
+        with self.assertRaisesRegex(ValueError, "three are needed; are the time stamps of both in"):
+            msc_vo.evaluate(path(), later)
+
+    def test_wrong_options_are_named_alone(self):
+        for options, problem in [({"rpe_delta": -1}, "rpe_delta: must be a whole number"),
+                                 ({"rpe_delta": 1.5}, "rpe_delta: must be a whole number"),
+                                 ({"rpe_delta": 0.0, "rpe_unit": "metres"}, "rpe_delta: must be p"),
+                                 ({"max_dt": -1.0}, "max_dt: must not be negative"),
+                                 ({"max_dt": np.nan}, "max_dt: must not be negative")]:
+            with self.assertRaisesRegex(ValueError, "^" + problem):
+                msc_vo.evaluate(path(), path(), **options)
+
     def test_equal_stamps_go_in_order(self):
         rows = path()
         rows[:, 0] = np.floor(rows[:, 0] / 0.5) * 0.5
