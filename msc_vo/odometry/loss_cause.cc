@@ -40,7 +40,7 @@ const char* Describe(LossCause cause) {
     case LossCause::kDepthOutOfRange:
       return "with too few depths in range (is depth_scale right?)";
     case LossCause::kNoMatch:
-      return "that do not fit the map (fast or jerky motion, blur, or a wrong camera?)";
+      return "not fitting the map (fast or jerky motion, blur, or a wrong camera?)";
     case LossCause::kImplausible:
       return "after a gap, whose place is uncertain";
   }

@@ -13,7 +13,7 @@ namespace msc_vo {
 /// `is_implausible`: TrackedFrame::is_implausible.
 std::optional<LossCause> FindLossCause(const FrameResult& frame, bool is_implausible);
 
-/// An attribute of "images" for messages: "with too few points and lines".
+/// An attribute of one or several images for messages: "with too few points and lines".
 const char* Describe(LossCause cause);
 /// A name for files: "uniform_image".
 const char* ToString(LossCause cause);

@@ -8,13 +8,17 @@
 #include <optional>
 
 #include "tests/support/rendered_images.h"
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <opencv2/imgproc.hpp>
 
 #include "msc_vo/odometry/odometry.h"
 
 namespace msc_vo {
 namespace {
+
+using testing::AllOf;
+using testing::Not;
+using testing::StartsWith;
 
 // A good image whose features do not fit the map.
 FrameResult Unmatched() {
@@ -51,6 +55,13 @@ TEST(FindLossCause, IsThatOfFramesThatAreNotTracked) {
   }
   frame.num_with_depth = 3;  // explains more
   EXPECT_EQ(FindLossCause(frame, true), LossCause::kDepthOutOfRange);
+}
+
+TEST(DescribeLossCause, SuitsOneImageAndSeveral) {
+  for (int i = 0; i < kNumLossCauses; ++i) {
+    EXPECT_THAT(Describe(static_cast<LossCause>(i)),
+                AllOf(Not(StartsWith("that ")), Not(StartsWith("unknown"))));
+  }
 }
 
 class FrameCauseTest : public RoomTest {
