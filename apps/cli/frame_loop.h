@@ -17,11 +17,6 @@ struct LoopProgress {
   int num_images = 0;  ///< processed or skipped; the next one has this number
   int num_unreadable = 0;
   std::string first_unreadable;  ///< error message; empty without one
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, num_images, num_unreadable, first_unreadable);
-  }
 };
 
 /// Processes the images of a feed with the odometry, one per step. Unreadable images become frames

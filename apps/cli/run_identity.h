@@ -23,11 +23,6 @@ struct RunIdentity {
   std::string session;                 ///< name of the session in a map (NewSessionName())
   /// Everything else that determines the results, by name: options, camera, images.
   std::map<std::string, std::string> facts;
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, arguments, command_line, folder, program, session, facts);
-  }
 };
 
 /// The identity of a run of this program. The number of threads is not part of it: it does not

@@ -18,7 +18,7 @@
 #include "apps/python/value_fields.h"
 #include "msc_vo/checkpoint/binary_reader.h"
 #include "msc_vo/checkpoint/binary_writer.h"
-#include "msc_vo/checkpoint/field_count.h"
+#include "msc_vo/checkpoint/fields.h"
 #include "msc_vo/sensor/rgbd_image.h"
 #include "msc_vo/version.h"
 

@@ -93,11 +93,6 @@ struct TermSummary {
   /// The same after the second solve, over inliers, with the noise factors of that solve; not
   /// comparable with initial_cost where noise factors changed in between.
   double final_cost = 0.0;
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, num_residual_blocks, num_rejected, initial_cost, final_cost);
-  }
 };
 
 struct BundleAdjustmentSummary {
@@ -121,15 +116,6 @@ struct BundleAdjustmentSummary {
 
   /// Human-readable report of several lines.
   std::string BriefReport() const;
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, usable, num_iterations, num_accepted, initial_cost, final_cost,
-                   point_reprojection, point_depth, line_reprojection, line_depth,
-                   line_endpoint_prior, parallel, perpendicular, manhattan, pose_prior, custom,
-                   num_behind_camera, undetermined_keyframes, undetermined_points,
-                   undetermined_lines, schur_structure, message);
-  }
 };
 
 /// Stage of LocalBundleAdjustment.

@@ -64,11 +64,6 @@ struct LensDistortion {
   /// Returns the undistorted pixel whose Distort() is `pixel`, to 1e-9 px, see
   /// UndistortNormalized().
   Eigen::Vector2d Undistort(const PinholeCamera& camera, const Eigen::Vector2d& pixel) const;
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, k, model, recorded);
-  }
 };
 
 }  // namespace msc_vo

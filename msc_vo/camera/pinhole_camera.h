@@ -47,11 +47,6 @@ struct PinholeCamera {
   /// Tests whether the numbers are those of a camera. If not, `error` names the number and its
   /// valid range.
   bool IsValid(std::string* error) const;
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, fx, fy, cx, cy, width, height);
-  }
 };
 
 }  // namespace msc_vo

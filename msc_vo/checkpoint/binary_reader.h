@@ -12,6 +12,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <type_traits>
 #include <typeinfo>
 #include <utility>
@@ -20,7 +21,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "msc_vo/checkpoint/field_count.h"
+#include "msc_vo/checkpoint/fields.h"
 #include "msc_vo/checkpoint/object_journal.h"
 
 namespace msc_vo {
@@ -39,7 +40,7 @@ class BinaryReader {
   void operator()(Values&... values) {
     (Get(values), ...);
   }
-  /// Reads all fields of a struct.
+  /// Reads what BinaryWriter::Fields() wrote.
   template <typename T, typename... Values>
   void Fields(const T& value, Values&... fields) {
     CheckFieldCount<sizeof...(fields)>(value);
@@ -99,6 +100,8 @@ class BinaryReader {
       value = byte != 0;
     } else if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
       GetBytes(&value, sizeof(value));
+    } else if constexpr (kIsPlainStruct<T, BinaryReader>) {
+      std::apply(*this, TieFields(value));
     } else {
       value.Serialize(*this);
     }

@@ -15,6 +15,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -22,7 +23,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "msc_vo/checkpoint/field_count.h"
+#include "msc_vo/checkpoint/fields.h"
 #include "msc_vo/checkpoint/object_journal.h"
 
 namespace msc_vo {
@@ -34,9 +35,9 @@ namespace msc_vo {
 ///     template <typename Archive>
 ///     void Serialize(Archive& archive) { archive(count_, poses_); }
 ///
-/// Plain structs call archive.Fields(*this, ...), which compiles only if no field is missing. What
-/// a shared pointer points to must not change any more: it goes to the journal, once however many
-/// pointers and archives refer to it.
+/// A plain struct (an aggregate) needs none: all its fields are written in the order in which they
+/// are declared. What a shared pointer points to must not change any more: it goes to the journal,
+/// once however many pointers and archives refer to it.
 class BinaryWriter {
  public:
   /// Takes bytes that follow those it got before; may throw.
@@ -52,7 +53,8 @@ class BinaryWriter {
   void operator()(const Values&... values) {
     (Put(values), ...);
   }
-  /// Writes all fields of a struct.
+  /// Writes all fields of a struct that is no aggregate, or whose fields NumFields() cannot count;
+  /// compiles only if none is missing.
   template <typename T, typename... Values>
   void Fields(const T& value, const Values&... fields) {
     CheckFieldCount<sizeof...(fields)>(value);
@@ -111,6 +113,8 @@ class BinaryWriter {
   void Put(const T& value) {
     if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
       PutBytes(&value, sizeof(value));
+    } else if constexpr (kIsPlainStruct<T, BinaryWriter>) {
+      std::apply(*this, TieFields(value));
     } else {
       // Reading needs a function that changes its object; with a writer it does not.
       const_cast<T&>(value).Serialize(*this);

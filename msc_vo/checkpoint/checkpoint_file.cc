@@ -37,11 +37,6 @@ struct Contents {
   int32_t journal = 0;
   uint64_t journal_bytes = 0;
   uint64_t journal_checksum = 0;
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, description, journal, journal_bytes, journal_checksum);
-  }
 };
 
 [[noreturn]] void Fail(const std::string& path, const std::string& problem) {

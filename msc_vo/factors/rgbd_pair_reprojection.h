@@ -17,11 +17,6 @@ struct InverseDepthPlane {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();     ///< of the depth image
   double inverse_depth = 0.0;                          ///< at `pixel`, 1/metres
   Eigen::Vector2d gradient = Eigen::Vector2d::Zero();  ///< 1/metres per pixel
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, pixel, inverse_depth, gradient);
-  }
 };
 
 /// One point in two RGB-D images, for self-calibration (not in the paper), 3 rows:
@@ -45,11 +40,6 @@ class RgbdPairReprojection
     /// Derivative of `pixel` with respect to the readout time, pixels/second.
     Eigen::Vector2d pixel_rate = Eigen::Vector2d::Zero();
     InverseDepthPlane surface;
-
-    template <typename Archive>
-    void Serialize(Archive& archive) {
-      archive.Fields(*this, pixel, recorded_pixel, pixel_rate, surface);
-    }
   };
 
   RgbdPairReprojection(const CorrectedCamera& camera, const View& a, const View& b,

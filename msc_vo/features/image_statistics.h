@@ -12,11 +12,6 @@ struct ImageStatistics {
   double brightness = 0.0;      ///< mean grey value, 0..255
   double contrast = 0.0;        ///< standard deviation of the grey values
   double measured_depth = 0.0;  ///< fraction of the pixels that have a depth, 0..1
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, brightness, contrast, measured_depth);
-  }
 };
 
 /// Computes the statistics of every eighth pixel of every eighth row; 20 microseconds for 640x480.

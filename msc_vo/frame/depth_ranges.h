@@ -25,11 +25,6 @@ struct DepthRanges {
     float max_inverse_depth = 0.0f;  ///< of the nearest surface
 
     bool HasDepth() const { return min_inverse_depth > 0.0f; }
-
-    template <typename Archive>
-    void Serialize(Archive& archive) {
-      archive.Fields(*this, min_inverse_depth, max_inverse_depth);
-    }
   };
   std::vector<Cell> cells;  ///< row by row; empty: unknown
 
@@ -48,11 +43,6 @@ struct DepthRanges {
   /// Pixel in the middle of a cell.
   static Eigen::Vector2d CellCenter(const PinholeCamera& camera, int column, int row) {
     return CellSize(camera).cwiseProduct(Eigen::Vector2d(column + 0.5, row + 0.5));
-  }
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, cells);
   }
 };
 

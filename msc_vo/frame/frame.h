@@ -26,11 +26,6 @@ namespace msc_vo {
 struct DepthMotion {
   double delay = 0.0;       ///< time of the depth image relative to the colour image, seconds
   CameraVelocity velocity;  ///< over that time
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, delay, velocity);
-  }
 };
 
 /// The features of one image. Image data is kept beyond this type for self-calibration only, see
@@ -71,12 +66,6 @@ struct Frame {
   /// Segment in camera coordinates (metres) of a line that has a depth.
   LineSegment3 LineInCamera(int index) const {
     return BackProject(camera, lines[index].segment, *lines[index].depth);
-  }
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, id, timestamp, camera, lens, points, lines, planes, grid, depth_ranges,
-                   intrinsics, velocity, readout_time, depth_motion);
   }
 };
 

@@ -35,11 +35,6 @@ struct LineFeature {
     segment.start = move(segment.start, &moved.start);
     segment.end = move(segment.end, &moved.end);
   }
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, segment, sigma, dynamic, depth, descriptor);
-  }
 };
 
 }  // namespace msc_vo

@@ -57,11 +57,6 @@ struct PlaneFeature {
     covariance += std::pow(closeness * rotation_sigma, 2) * (Eigen::Matrix3d::Identity() - along) +
                   std::pow(closeness * closeness * translation_sigma, 2) * along;
   }
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, inverse_depth, covariance, mean_square_ray, num_pixels, hull);
-  }
 };
 
 }  // namespace msc_vo

@@ -35,12 +35,6 @@ struct PointFeature {
   void MovePixels(const Move& move) {
     pixel = move(pixel, &inverse_depth);
   }
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, pixel, sigma, level, dynamic, angle, inverse_depth, inverse_depth_sigma,
-                   descriptor);
-  }
 };
 
 }  // namespace msc_vo

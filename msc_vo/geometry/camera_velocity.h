@@ -22,11 +22,6 @@ struct CameraVelocity {
 
   /// Transform from the present camera frame to that after `seconds`, which may be negative.
   Rigid3 Over(double seconds) const { return {ExpSO3(seconds * angular), seconds * linear}; }
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, angular, linear);
-  }
 };
 
 }  // namespace msc_vo

@@ -37,11 +37,6 @@ struct LineDepth {
     const Eigen::Vector2d a(1.0 - s, s);
     return std::sqrt(a.dot(covariance * a));
   }
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, start, end, covariance, num_inliers, inlier_ratio);
-  }
 };
 
 /// Returns the depth of the line moved towards the camera: its depths z are smaller by `offset`

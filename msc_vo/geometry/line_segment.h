@@ -32,11 +32,6 @@ struct LineSegment {
   }
   /// Distance of x from the infinite line.
   double DistanceToLine(const Vector& x) const { return (x - At(Parameter(x))).norm(); }
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, start, end);
-  }
 };
 using LineSegment2 = LineSegment<2>;
 using LineSegment3 = LineSegment<3>;

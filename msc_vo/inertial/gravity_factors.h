@@ -64,11 +64,6 @@ class GravityFactors {
     std::vector<KeyframeId> keyframes;              // ascending
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();  // weighted by information, world
     double information = 0.0;                       // of the mean, 1/radians^2
-
-    template <typename Archive>
-    void Serialize(Archive& archive) {
-      archive.Fields(*this, keyframes, sum, information);
-    }
   };
 
   std::vector<TimedAcceleration> readings_;

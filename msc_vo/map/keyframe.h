@@ -18,11 +18,6 @@ struct Keyframe {
   std::shared_ptr<const Frame> frame;
   Rigid3 cam_from_world;
   PerKind<std::vector<LandmarkId>> landmarks;  ///< one per feature; kNoId: none
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, id, frame, cam_from_world, landmarks);
-  }
 };
 
 /// The landmarks of a kind that a keyframe observes, one per feature; kNoId: none.

@@ -20,11 +20,6 @@ constexpr int64_t kNoId = -1;
 struct Observation {
   KeyframeId keyframe = kNoId;
   int feature = 0;
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, keyframe, feature);
-  }
 };
 
 /// Common part of all kinds of landmarks.
@@ -48,12 +43,6 @@ struct Landmark {
   /// The depth image measured a nearer surface, such as a pane of glass; only the observations in
   /// the image are used.
   bool has_false_depth = false;
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, id, first_keyframe, observations, descriptor, descriptor_is_current,
-                   viewing_direction, num_visible, num_found, noise, has_false_depth);
-  }
 };
 
 }  // namespace msc_vo

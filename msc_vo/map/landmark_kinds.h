@@ -54,11 +54,6 @@ struct PerKind {
   bool operator==(const PerKind& other) const {
     return points == other.points && lines == other.lines;
   }
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, points, lines);
-  }
 };
 
 /// One T<L> for each kind L.
@@ -74,11 +69,6 @@ struct ByKind {
   template <typename L>
   const T<L>& Of() const {
     return OfKind<L>(*this);
-  }
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, points, lines);
   }
 };
 

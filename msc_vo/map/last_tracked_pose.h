@@ -13,11 +13,6 @@ struct LastTrackedPose {
   double timestamp = 0.0;  ///< seconds
   KeyframeId reference = kNoId;
   Rigid3 cam_from_reference;
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, timestamp, reference, cam_from_reference);
-  }
 };
 
 }  // namespace msc_vo

@@ -92,8 +92,7 @@ struct LineLandmark : Landmark {
 
   template <typename Archive>
   void Serialize(Archive& archive) {
-    Landmark::Serialize(archive);
-    archive(segment, direction_sigma, depth_offset);
+    archive(static_cast<Landmark&>(*this), segment, direction_sigma, depth_offset);
   }
 };
 

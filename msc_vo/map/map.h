@@ -178,11 +178,6 @@ class Map {
   struct RelativePose {
     KeyframeId successor = kNoId;
     Rigid3 cam_from_successor;
-
-    template <typename Archive>
-    void Serialize(Archive& archive) {
-      archive.Fields(*this, successor, cam_from_successor);
-    }
   };
 
   KeyframeTable keyframes_;

@@ -22,11 +22,6 @@ struct MapSession {
   /// different sessions cannot be compared.
   KeyframeId first_keyframe = 0;
   std::string name;  ///< for people, such as the name of the sequence
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, first_keyframe, name);
-  }
 };
 
 /// The keyframes of one session in one world.

@@ -10,11 +10,6 @@ struct NoiseScale {
   double point_depth = 1.0;
   double line_pixel = 1.0;
   double line_depth = 1.0;
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, point_depth, line_pixel, line_depth);
-  }
 };
 
 }  // namespace msc_vo

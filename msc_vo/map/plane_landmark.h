@@ -19,11 +19,6 @@ struct PlaneLandmark {
   LandmarkId id = kNoId;
   Plane plane;              ///< world
   PlaneExtent extent = {};  ///< convex hull of its observations, world
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, id, plane, extent);
-  }
 };
 
 /// The planes of a map, as a snapshot has them.
@@ -39,22 +34,12 @@ struct MapPlanes {
                          [](const PlaneLandmark& plane, LandmarkId x) { return plane.id < x; });
     return found == planes.end() || found->id != id ? nullptr : &*found;
   }
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, planes, noise, numbering);
-  }
 };
 
 /// The plane feature of a frame is a plane of the map.
 struct PlaneMatch {
   int feature = -1;
   LandmarkId plane = kNoId;
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, feature, plane);
-  }
 };
 
 /// A plane in the camera frame of a keyframe that observed it, its host, with which it moves when
@@ -63,11 +48,6 @@ struct HostedPlane {
   KeyframeId host = kNoId;
   Plane in_host;
   PlaneExtent extent = {};  ///< host frame; near the plane, which may have moved since
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, host, in_host, extent);
-  }
 };
 
 /// The planes of a map, as a map file keeps them.

@@ -88,8 +88,7 @@ struct PointLandmark : Landmark {
 
   template <typename Archive>
   void Serialize(Archive& archive) {
-    Landmark::Serialize(archive);
-    archive(position, reference_distance);
+    archive(static_cast<Landmark&>(*this), position, reference_distance);
   }
 };
 

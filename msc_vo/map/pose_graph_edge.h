@@ -16,11 +16,6 @@ struct PoseGraphEdge {
   Rigid3 to_from_from;  ///< camera to camera
   /// Of `to_from_from`, in the tangent of Rigid3Manifold; positive definite.
   PoseCovariance covariance = PoseCovariance::Zero();
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, from, to, to_from_from, covariance);
-  }
 };
 
 }  // namespace msc_vo

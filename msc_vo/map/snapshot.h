@@ -23,11 +23,6 @@ struct AxesEstimate {
   Eigen::Quaterniond world_from_axes = Eigen::Quaterniond::Identity();
   double sigma = 0.0;      ///< standard deviation of the least certain direction, radians
   double deviation = 0.0;  ///< of the lines that were built along the axes, radians
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, world_from_axes, sigma, deviation);
-  }
 };
 
 /// The immutable map after one keyframe step. Any thread may read it.
@@ -57,13 +52,6 @@ struct MapSnapshot {
   /// The map that knows the keyframe; nullptr: none.
   const Map* FindMapOf(KeyframeId keyframe) const {
     return map.KnowsKeyframe(keyframe) ? &map : msc_vo::FindMapOf(inactive_maps, keyframe);
-  }
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, map, planes, world, newest_keyframe, num_loops, loops, noise_scale,
-                   readout_time, intrinsics, axes, needs_axes, calibration_is_settled,
-                   calibration_is_doubted, inactive_maps, extra_blocks);
   }
 };
 using MapSnapshotPtr = std::shared_ptr<const MapSnapshot>;

@@ -50,13 +50,6 @@ struct KeyframePacket {
   std::vector<CalibrationImage> calibration_images;
   /// Over all frames since the last packet, including this one.
   PerKind<TrackingCounts> counts;
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, id, frame, reference, cam_from_reference, begins_map, keeps_last_map,
-                   last_tracked, matches, covariance, revisit, frame_interval, last_velocity,
-                   normals, image, calibration_images, counts);
-  }
 };
 
 }  // namespace msc_vo

@@ -18,11 +18,6 @@ struct KeyframeRevisit {
   /// Of its pose in its own map, in the tangent of Rigid3Manifold.
   PoseCovariance covariance = PoseCovariance::Zero();
   Revisit revisit;
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, keyframe, covariance, revisit);
-  }
 };
 
 /// The poses of the keyframe in both maps, which may be parts of one. a: `own`, that of the

@@ -22,11 +22,6 @@ struct LoopClosure {
   int num_keyframes = 0;         ///< that agree on it
   /// Pose of `keyframe` after the correction relative to before it, in its camera frame.
   Rigid3 new_from_old_camera;
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, keyframe, reference, num_keyframes, new_from_old_camera);
-  }
 };
 
 /// Closes loops of a map. A loop is accepted if no test rejects it: several keyframes of a short

@@ -23,11 +23,6 @@ struct MapJoin {
   /// Of `moved_from_kept`, in the tangent of Rigid3Manifold.
   PoseCovariance covariance = PoseCovariance::Zero();
   int num_keyframes = 0;  ///< that agree on the alignment
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, kept, moved, moved_from_kept, covariance, num_keyframes);
-  }
 };
 
 /// Joins the current map with an inactive one when enough keyframes have been found in both.

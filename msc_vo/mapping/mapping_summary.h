@@ -27,23 +27,12 @@ struct MappingTimes {
   double readout = 0.0;          ///< estimation of the readout time
   double calibration = 0.0;      ///< estimation of the calibration
   double culling = 0.0;          ///< keyframe culling
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, structure, creation, fusion, loop, axes, window, readout, calibration,
-                   culling);
-  }
 };
 
 /// A corrected calibration that the maps were brought up to date with.
 struct CalibrationChange {
   CorrectionEstimate estimate;
   InactiveMaps maps_before;  ///< all maps, with the old poses
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, estimate, maps_before);
-  }
 };
 
 /// Result of one keyframe step.
@@ -60,13 +49,6 @@ struct MappingSummary {
   int num_refused_loops = 0;        ///< in the run so far (LoopCloser::num_refused)
   std::shared_ptr<const CalibrationChange> calibration;  ///< null: it was not changed
   MappingTimes times;
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, keyframe, submap, num_culled_keyframes, window, axes_state,
-                   num_axes_refinements, join, num_refused_joins, loop, num_refused_loops,
-                   calibration, times);
-  }
 };
 
 }  // namespace msc_vo

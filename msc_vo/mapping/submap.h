@@ -22,12 +22,6 @@ struct SubMap {
   SceneAxes axes;        ///< of its world
   NoiseEstimator noise;  ///< of the measurements in it
   PlaneMap planes;
-
-  /// Lists the state for a checkpoint.
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, id, map, axes, noise, planes);
-  }
 };
 
 }  // namespace msc_vo

@@ -16,11 +16,6 @@ struct TrackingCount {
   LandmarkId id = kNoId;
   int num_visible = 0;
   int num_found = 0;
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, id, num_visible, num_found);
-  }
 };
 
 /// The counts of landmarks over several frames, by ascending id.

@@ -25,11 +25,6 @@ struct LineMatch {
   LandmarkId id = kNoId;
   LineSegment3 segment{};  ///< metres, world
   bool inlier = true;
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, feature, id, segment, inlier);
-  }
 };
 
 /// A map line that is expected to be visible in a frame.

@@ -27,11 +27,6 @@ struct PointMatch {
   LandmarkId id = kNoId;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< metres, world
   bool inlier = true;
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, feature, id, position, inlier);
-  }
 };
 
 /// A point that is expected to be visible in a frame: a landmark, or a point of another frame that

@@ -18,11 +18,6 @@ struct Revisit {
   /// Of the pose in the world of the reference, in the tangent of Rigid3Manifold.
   PoseCovariance covariance = PoseCovariance::Zero();
   FrameMatches matches;  ///< inliers among the landmarks of that part
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, reference, cam_from_reference, covariance, matches);
-  }
 };
 
 }  // namespace msc_vo

@@ -33,12 +33,6 @@ struct StageTimes {
   double mapping = 0.0;
   MappingTimes mapping_stages;
   double snapshot = 0.0;  ///< snapshots of the map; part of `mapping`
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, features, points, lines, depth, matching, pose, waiting, tracking,
-                   mapping, mapping_stages, snapshot);
-  }
 };
 
 /// FrameResult::segment of a frame without one.
@@ -66,11 +60,6 @@ struct WorldChange {
   /// cam_from_new = cam_from_old * new_from_old.Inverse(). std::nullopt: unknown, because a segment
   /// begins; its world may have the number of the old one if that was discarded.
   std::optional<Rigid3> new_from_old;
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, old_world, new_from_old);
-  }
 };
 
 /// Result of one frame.

@@ -21,11 +21,6 @@ struct Loop {
   int num_keyframes = 0;     ///< that agree on the correction
   double rotation = 0.0;     ///< of the correction at `frame`, radians
   double translation = 0.0;  ///< of the correction at `frame`, metres
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, frame, reference, num_keyframes, rotation, translation);
-  }
 };
 
 /// Keeps the loops of a run while frames are tracked and keyframes are mapped.

@@ -15,11 +15,6 @@ namespace msc_vo {
 struct ReferencedPose {
   KeyframeId reference = kNoId;
   Rigid3 cam_from_reference;
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, reference, cam_from_reference);
-  }
 };
 
 /// Corrects the poses of frames after those of the keyframes have changed at once, from

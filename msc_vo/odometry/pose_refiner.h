@@ -51,11 +51,6 @@ class PoseRefiner {
     std::vector<PlaneMatch> planes;
     SubMapId world = 0;           // that `planes` are in
     int64_t plane_numbering = 0;  // MapPlanes::numbering of their ids
-
-    template <typename Archive>
-    void Serialize(Archive& archive) {
-      archive.Fields(*this, index, reference, frame, landmarks, planes, world, plane_numbering);
-    }
   };
 
   static bool HasPlanes(const PendingFrame& pending, const Frame& frame,

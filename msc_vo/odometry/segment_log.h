@@ -86,22 +86,12 @@ class SegmentLog {
   struct Move {
     int frame = 0;
     MapJoin join;
-
-    template <typename Archive>
-    void Serialize(Archive& archive) {
-      archive.Fields(*this, frame, join);
-    }
   };
   struct Entry {
     int first_frame = 0;
     SubMapId first_submap = kNoSubMap;  // that began with the segment; kNoSubMap: not mapped yet
     SubMapId submap = kNoSubMap;        // that the segment belongs to since the last join
     std::vector<Move> moves;            // in order of time
-
-    template <typename Archive>
-    void Serialize(Archive& archive) {
-      archive.Fields(*this, first_frame, first_submap, submap, moves);
-    }
   };
 
   bool has_begun() const { return entries_.size() > num_earlier_; }

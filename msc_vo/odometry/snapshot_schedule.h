@@ -89,11 +89,6 @@ class SnapshotSchedule {
     bool late = false;
     bool begins_map = false;  // the first map of a segment: no later frame is tracked without it
     bool recorded = false;    // the step has been passed to the recorder
-
-    template <typename Archive>
-    void Serialize(Archive& archive) {
-      archive.Fields(*this, keyframe, due, step, late, begins_map, recorded);
-    }
   };
 
   bool IsAnyDue(double timestamp) const;

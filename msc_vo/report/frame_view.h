@@ -19,11 +19,6 @@ enum class LineColor : uint8_t { kAxis0, kAxis1, kAxis2, kWithoutAxis, kWithoutD
 struct ViewedPoint {
   Eigen::Vector2f pixel = Eigen::Vector2f::Zero();  ///< in the recorded image
   bool has_depth = true;
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, pixel, has_depth);
-  }
 };
 
 /// A line feature that was matched with the map.
@@ -31,22 +26,12 @@ struct ViewedLine {
   Eigen::Vector2f start = Eigen::Vector2f::Zero();  ///< pixel in the recorded image
   Eigen::Vector2f end = Eigen::Vector2f::Zero();
   LineColor color = LineColor::kWithoutAxis;
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, start, end, color);
-  }
 };
 
 /// The tracked features of a frame.
 struct ViewedFeatures {
   std::vector<ViewedPoint> points;
   std::vector<ViewedLine> lines;
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, points, lines);
-  }
 };
 
 /// What a frame looks like: a reduced image and the features that were tracked in it.
@@ -54,11 +39,6 @@ struct FrameView {
   int frame = 0;     ///< index into ReportData::frames
   std::string jpeg;  ///< bytes of a JPEG file
   ViewedFeatures features;
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, frame, jpeg, features);
-  }
 };
 
 /// The place where a run was found in the map of earlier runs, as the run and the map show it.
@@ -67,11 +47,6 @@ struct PlaceView {
   std::string jpeg;           ///< bytes of a JPEG file, of the frame
   int64_t keyframe = 0;       ///< id in the map
   std::string keyframe_jpeg;  ///< bytes of a JPEG file
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, frame, jpeg, keyframe, keyframe_jpeg);
-  }
 };
 
 /// Bytes that a view takes in memory and, before base64, in the page.

@@ -47,11 +47,6 @@ class FrameViewCollector {
   struct Entry {
     std::shared_ptr<FrameView> view;  // unchanged until Take(): checkpoints write it once
     int keyframe = -1;                // number of the keyframe; -1: another frame
-
-    template <typename Archive>
-    void Serialize(Archive& archive) {
-      archive.Fields(*this, view, keyframe);
-    }
   };
 
   // Whether a frame is kept with the present strides.

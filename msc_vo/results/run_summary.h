@@ -96,11 +96,6 @@ struct RunCost {
   double seconds = 0.0;            ///< wall time from the first image to the last pose
   double processor_seconds = 0.0;  ///< user and system time, summed over all threads
   double peak_memory = 0.0;        ///< resident, MiB
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, seconds, processor_seconds, peak_memory);
-  }
 };
 
 /// Latency of a replay in real time.

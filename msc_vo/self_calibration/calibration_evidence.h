@@ -47,11 +47,6 @@ struct CorrectionEstimate {
   Eigen::Vector2d depth_errors = Eigen::Vector2d::Zero();
 
   bool IsCorrected() const;
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, correction, sigma, is_corrected, log_odds, depth_errors);
-  }
 };
 
 /// Standard deviation of the parameters before a measurement if their group is wrong.

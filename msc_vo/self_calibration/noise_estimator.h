@@ -64,11 +64,6 @@ class NoiseEstimator {
   struct Variance {
     double value = 1.0;
     double weight = 0.0;  // image quadrants
-
-    template <typename Archive>
-    void Serialize(Archive& archive) {
-      archive.Fields(*this, value, weight);
-    }
   };
   double Scale(const Variance& variance) const;
   // Blends in the variance ratio of a window whose sigmas had been multiplied by Scale(*variance).

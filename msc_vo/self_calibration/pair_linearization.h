@@ -18,11 +18,6 @@ struct CalibrationPoint {
   RgbdPairReprojection::View b;
   double inverse_depth = 0.0;   ///< of a, 1/metres, a first estimate
   double pixel_variance = 0.0;  ///< pixels^2, of both images together
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, a, b, inverse_depth, pixel_variance);
-  }
 };
 
 /// Information of the points of a pair of images, of several ones or of a map about a
@@ -40,11 +35,6 @@ struct CalibrationInformation {
     vector += other.vector;
     point_information += other.point_information;
     return *this;
-  }
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, matrix, vector, point_information);
   }
 };
 

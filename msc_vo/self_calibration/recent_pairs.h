@@ -22,11 +22,6 @@ struct CalibrationImage {
   /// Its pose relative to a keyframe.
   KeyframeId reference = kNoId;
   Rigid3 cam_from_reference;
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, frame, image, reference, cam_from_reference);
-  }
 };
 
 /// Points that recent images have in common with keyframes, for self-calibration during a run. They
@@ -74,22 +69,12 @@ class RecentPairs {
   struct Sample {
     int feature = 0;
     RgbdPairReprojection::View view;
-
-    template <typename Archive>
-    void Serialize(Archive& archive) {
-      archive.Fields(*this, feature, view);
-    }
   };
   struct KeyframeView {
     KeyframeId id = kNoId;
     std::vector<Sample> samples;
     double squared_shift_rate = 0.0;
     std::shared_ptr<const RecordedImage> image;
-
-    template <typename Archive>
-    void Serialize(Archive& archive) {
-      archive.Fields(*this, id, samples, squared_shift_rate, image);
-    }
   };
   struct Pair {
     std::vector<CalibrationPoint> points;  // some have no surface
@@ -101,12 +86,6 @@ class RecentPairs {
     SensorCorrection::Vector at = SensorCorrection::Vector::Zero();  // of the linearisation
     double readout_time = 0.0;                                       // the same
     std::optional<CalibrationInformation> information;
-
-    template <typename Archive>
-    void Serialize(Archive& archive) {
-      archive.Fields(*this, points, b_from_a, squared_shift_rate, image_a, image_b, surfaces_at, at,
-                     readout_time, information);
-    }
   };
   // The image that pairs are formed with.
   struct Partner {

@@ -40,11 +40,6 @@ class RecordedImages {
   struct KeyframeImage {
     KeyframeId keyframe = kNoId;
     std::shared_ptr<const RecordedImage> image;
-
-    template <typename Archive>
-    void Serialize(Archive& archive) {
-      archive.Fields(*this, keyframe, image);
-    }
   };
 
   std::deque<KeyframeImage> images_;

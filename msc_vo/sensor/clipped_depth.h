@@ -43,11 +43,6 @@ class ClippedDepthFinder {
     int num_others = 0;             // images that end at a similar value, or have few of this one
     int num_moved = 0;              // clipped images between which the scene has moved
     std::vector<float> last_moved;  // samples of the last one of these
-
-    template <typename Archive>
-    void Serialize(Archive& archive) {
-      archive.Fields(*this, value, num_clipped, num_others, num_moved, last_moved);
-    }
   };
 
   // `sign`: 1 for the largest depth, -1 for the smallest one. Returns whether the evidence

@@ -25,11 +25,6 @@ struct DepthLimits {
     if (HasNearest()) depth->setTo(0, *depth <= nearest);
     if (HasFarthest()) depth->setTo(0, *depth >= farthest);
   }
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, nearest, farthest);
-  }
 };
 
 }  // namespace msc_vo

@@ -24,11 +24,6 @@ struct AxesSupport {
   int num_keyframes = 0;
   int num_lines = 0;       ///< with a direction that is certain enough for an association
   int num_axis_lines = 0;  ///< of these, associated with an axis
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, num_keyframes, num_lines, num_axis_lines);
-  }
 };
 
 /// State machine of the Manhattan axes of the world (paper: Manhattan Axes Estimation, coarse to

@@ -14,11 +14,6 @@ namespace msc_vo {
 struct AxisEvidence {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< unit; its sign is arbitrary
   double sigma = DegreesToRadians(1.0);                  ///< radians, of each of its two components
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, direction, sigma);
-  }
 };
 
 }  // namespace msc_vo

@@ -20,11 +20,6 @@ struct DirectionEstimate {
 
   /// Standard deviation of its least certain component, radians.
   double Sigma() const;
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, direction, covariance);
-  }
 };
 
 /// Estimates the direction of each line of the window from its observations in all keyframes, at

@@ -45,11 +45,6 @@ class KeyframePolicy {
   struct TrackedRatios {
     double all = 1.0;
     double close = 1.0;
-
-    template <typename Archive>
-    void Serialize(Archive& archive) {
-      archive.Fields(*this, all, close);
-    }
   };
   TrackedRatios ComputeRatios(const Frame& frame, const FrameMatches& matches) const;
 

@@ -44,11 +44,6 @@ class LookAlikes {
     KeyframeId own = kNoId;
     KeyframeId other = kNoId;
     Rigid3 other_from_own;  // camera to camera
-
-    template <typename Archive>
-    void Serialize(Archive& archive) {
-      archive.Fields(*this, own, other, other_from_own);
-    }
   };
 
   // For each alignment, whether it places the frame where it was found, up to drift.

@@ -17,11 +17,6 @@ enum class Color { kRed, kGreen };
 struct Part {
   double value = 0.0;
   std::optional<int> count;
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, value, count);
-  }
 };
 
 struct Everything {
@@ -38,12 +33,6 @@ struct Everything {
   Eigen::VectorXd vector;
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
   std::shared_ptr<const Part> first, second, none;
-
-  template <typename Archive>
-  void Serialize(Archive& archive) {
-    archive.Fields(*this, flag, color, text, parts, flags, bytes, queue, ids, names, matrix, vector,
-                   rotation, first, second, none);
-  }
 };
 
 Everything MakeExample() {
