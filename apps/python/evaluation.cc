@@ -69,8 +69,10 @@ TrajectoryFile TrajectoryArgument(const py::object& value, const std::string& na
 void WarnOfSkippedRows(const TrajectoryFile& trajectory, const std::string& name,
                        std::vector<std::string>* warnings) {
   if (trajectory.num_left_out == 0) return;
-  warnings->push_back(FormatText("%s: %d rows with nan or inf are left out", name.c_str(),
-                                 trajectory.num_left_out));
+  warnings->push_back(trajectory.num_left_out == 1
+                          ? name + ": 1 row with nan or inf is left out"
+                          : FormatText("%s: %d rows with nan or inf are left out", name.c_str(),
+                                       trajectory.num_left_out));
 }
 
 DeltaUnit UnitArgument(const std::string& name) {
