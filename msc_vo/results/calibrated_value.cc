@@ -30,8 +30,8 @@ std::vector<CalibratedValue> ListCalibratedValues(const RunSummary& summary) {
         estimate.log_odds[g],
         estimate.is_corrected[g],
         estimate.is_corrected[g] ? "corrected"
-        : is_observable          ? "as given"
-                                 : "as given, not observable"};
+        : is_observable          ? "kept"
+                                 : "kept: not observable"};
   };
   const auto& k = intrinsics.distortion.k;
   const PinholeCamera& depth = summary.depth_camera.camera;

@@ -17,7 +17,7 @@ struct CalibratedValue {
   double sigma = 0.0;     ///< standard deviation of the estimate; infinite if there was none
   double log_odds = 0.0;  ///< of the calibration to be wrong in the group of the value
   bool is_corrected = false;
-  /// "corrected", "as given", or "as given, not observable".
+  /// "corrected", "kept", or "kept: not observable", as `msc_vo calibrate` says.
   const char* verdict;
 };
 

@@ -72,7 +72,7 @@ TEST_F(SelfCalibrationTest, RegistersTheImagesOfADepthCameraThatNobodyTold) {
   const nlohmann::json without = Replay("untold", {"--set", "mapping.self_calibration=false"});
   EXPECT_FALSE(told.at("self_calibration").at("corrected").get<bool>());
   const nlohmann::json& values = untold.at("self_calibration");
-  EXPECT_EQ(values.at("fx").at("verdict"), "as given");
+  EXPECT_EQ(values.at("fx").at("verdict"), "kept");
   EXPECT_EQ(values.at("depth_fx").at("verdict"), "corrected");
   for (const auto& [name, truth] :
        {std::pair("depth_fx", 292.5), std::pair("depth_roll", 0.5), std::pair("depth_x", 25.0)}) {

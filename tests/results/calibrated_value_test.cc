@@ -48,5 +48,15 @@ TEST(CalibratedValue, HasTheSigmaOfItsParameter) {
   }
 }
 
+TEST(CalibratedValue, HasTheVerdictsOfCalibrate) {
+  RunSummary summary = CorrectedRun(S::Vector::Zero());
+  summary.calibration.is_corrected[static_cast<size_t>(CorrectionGroup::kFocalLength)] = true;
+  summary.calibration.sigma(S::kK1) = 0.0;  // no estimate
+  const auto values = ValuesByName(summary);
+  EXPECT_STREQ(values.at("fx").verdict, "corrected");
+  EXPECT_STREQ(values.at("cx").verdict, "kept");
+  EXPECT_STREQ(values.at("k1").verdict, "kept: not observable");
+}
+
 }  // namespace
 }  // namespace msc_vo
