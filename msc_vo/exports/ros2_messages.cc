@@ -5,14 +5,57 @@
 
 #include <array>
 
-#include "msc_vo/exports/cdr_writer.h"
 #include "msc_vo/exports/little_endian_bytes.h"
+#include "msc_vo/ros_bag/fast_cdr.h"
 
 namespace msc_vo {
 
 namespace {
 
+using namespace fast_cdr;
+
 constexpr int64_t kNanoseconds = 1'000'000'000;
+
+// Serialises the fields of a message, the lowest byte first on any machine.
+class CdrWriter {
+ public:
+  CdrWriter() { cdr_.serialize_encapsulation(); }
+
+  CdrWriter& AddByte(uint8_t value) { return Add(value); }
+  CdrWriter& AddWord(uint32_t value) { return Add(value); }
+  CdrWriter& AddInt(int32_t value) { return Add(value); }
+  CdrWriter& AddFloat(float value) { return Add(value); }
+  CdrWriter& AddDouble(double value) { return Add(value); }
+  CdrWriter& AddString(const std::string& text) { return Add(text, sizeof(uint32_t)); }
+  // Adds a sequence of bytes with its length.
+  CdrWriter& AddBytes(std::string_view bytes) {
+    AddWord(static_cast<uint32_t>(bytes.size()));
+    if (!bytes.empty()) {
+      AddArray(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size(), &cdr_);
+    }
+    return *this;
+  }
+  template <typename Numbers>
+  void AddDoubles(const Numbers& values) {
+    for (const double value : values) AddDouble(value);
+  }
+  // The message so far.
+  std::string Message() const { return {buffer_.getBuffer(), PositionOf(cdr_)}; }
+
+ private:
+  // Adds a value that is aligned to `size` bytes. The padding that Fast CDR adds is not
+  // initialised.
+  template <typename Value>
+  CdrWriter& Add(const Value& value, size_t size = sizeof(Value)) {
+    constexpr size_t kEncapsulation = 4;
+    while ((PositionOf(cdr_) - kEncapsulation) % size != 0) cdr_ << uint8_t{0};
+    cdr_ << value;
+    return *this;
+  }
+
+  FastBuffer buffer_;  // grows
+  Cdr cdr_ = Cdr(buffer_, Cdr::LITTLE_ENDIANNESS, kPlainCdr);
+};
 
 void AddHeader(const MessageHeader& header, CdrWriter* cdr) {
   cdr->AddInt(static_cast<int32_t>(header.nanoseconds / kNanoseconds));
