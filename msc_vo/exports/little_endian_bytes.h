@@ -3,35 +3,20 @@
 
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <cstring>
 #include <string>
 #include <string_view>
 #include <type_traits>
 
 namespace msc_vo {
 
-/// Builds the bytes of a binary format, numbers with their lowest byte first on any machine.
+/// Builds the bytes of a binary format with little-endian numbers; the host is little-endian, as
+/// for the rest of msc_vo.
 class LittleEndianBytes {
  public:
-  /// Adds a number of 1, 2, 4 or 8 bytes.
   template <typename Number>
   LittleEndianBytes& Add(Number value) {
-    static_assert(sizeof(value) <= sizeof(uint64_t), "a number");
-    uint64_t bits = 0;
-    if constexpr (sizeof(value) == sizeof(float) && !std::is_integral_v<Number>) {
-      uint32_t word = 0;
-      std::memcpy(&word, &value, sizeof(word));
-      bits = word;
-    } else if constexpr (!std::is_integral_v<Number>) {
-      std::memcpy(&bits, &value, sizeof(value));
-    } else {
-      bits = static_cast<uint64_t>(value);
-    }
-    for (size_t i = 0; i < sizeof(value); ++i) {
-      bytes_ += static_cast<char>((bits >> (8 * i)) & 0xFFU);
-    }
+    static_assert(std::is_arithmetic_v<Number>);
+    bytes_.append(reinterpret_cast<const char*>(&value), sizeof(value));
     return *this;
   }
   /// Adds bytes as they are.
