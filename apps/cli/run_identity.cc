@@ -26,10 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string ChecksumText(const std::string& bytes) {
-  return FormatText("%016llx", static_cast<unsigned long long>(Checksum(bytes)));
-}
-
 // Two builds of the same version may round differently. Where the file of the program cannot be
 // found, the version must do.
 std::string DescribeProgram() {

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "msc_vo/text/format_text.h"
+
 namespace msc_vo {
 
 uint64_t Checksum(std::string_view bytes, uint64_t previous) {
@@ -20,6 +22,10 @@ uint64_t Checksum(std::string_view bytes, uint64_t previous) {
     checksum ^= checksum >> 29;
   }
   return checksum;
+}
+
+std::string ChecksumText(std::string_view bytes) {
+  return FormatText("%016llx", static_cast<unsigned long long>(Checksum(bytes)));
 }
 
 }  // namespace msc_vo

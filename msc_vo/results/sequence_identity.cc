@@ -15,7 +15,6 @@
 
 #include "msc_vo/checkpoint/checksum.h"
 #include "msc_vo/text/files.h"
-#include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -24,10 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-std::string ChecksumText(const std::string& bytes) {
-  return FormatText("%016llx", static_cast<unsigned long long>(Checksum(bytes)));
-}
 
 // Name and size of a file; its folder may have been moved.
 std::string NameAndSize(const std::string& path) {

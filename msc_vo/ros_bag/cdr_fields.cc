@@ -51,12 +51,6 @@ class CdrFields : public RosFields {
     }
     return message_.substr(begin, size);
   }
-  RosHeader ReadHeader() override {
-    const uint32_t seconds = ReadWord();
-    const uint32_t nanoseconds = ReadWord();
-    ReadBytes();  // name of the frame
-    return {SecondsOf(seconds, nanoseconds)};
-  }
 
  private:
   template <typename Number>

@@ -20,10 +20,7 @@ class Ros1Fields : public RosFields {
   std::string_view ReadBytes() override { return fields_.ReadArray(); }
   RosHeader ReadHeader() override {
     ReadWord();  // sequence number
-    const uint32_t seconds = ReadWord();
-    const uint32_t nanoseconds = ReadWord();
-    ReadBytes();  // name of the frame
-    return {SecondsOf(seconds, nanoseconds)};
+    return RosFields::ReadHeader();
   }
 
  private:

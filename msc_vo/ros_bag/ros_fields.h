@@ -25,7 +25,12 @@ class RosFields {
   virtual std::string ReadString() = 0;
   /// A sequence of bytes.
   virtual std::string_view ReadBytes() = 0;
-  virtual RosHeader ReadHeader() = 0;
+  virtual RosHeader ReadHeader() {
+    const uint32_t seconds = ReadWord();
+    const uint32_t nanoseconds = ReadWord();
+    ReadBytes();  // name of the frame
+    return {SecondsOf(seconds, nanoseconds)};
+  }
 
   void ReadDoubles(double* values, size_t count) {
     for (size_t i = 0; i < count; ++i) values[i] = ReadDouble();
