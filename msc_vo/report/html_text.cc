@@ -7,6 +7,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "msc_vo/report/web_assets.h"
+
 namespace msc_vo {
 
 std::string EscapeHtml(const std::string& text) {
@@ -34,6 +36,14 @@ std::string EscapeHtml(const std::string& text) {
     }
   }
   return escaped;
+}
+
+std::string PageHead(const std::string& title) {
+  const std::string text = EscapeHtml(title);
+  return "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
+         text + "</title>\n<style>" + std::string(kReportStyle) +
+         "</style>\n</head>\n<body>\n<h1>" + text + "</h1>\n";
 }
 
 std::string FormatFixed(double value, int decimals) {

@@ -29,13 +29,8 @@ std::string NumbersHtml(const std::vector<ReportNumber>& numbers) {
 }  // namespace
 
 std::string FormatPageHtml(const PlotPage& page) {
-  const std::string title = EscapeHtml(page.title);
-  std::string html =
-      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-      title + "</title>\n<style>" + std::string(kReportStyle) + "</style>\n</head>\n<body>\n<h1>" +
-      title + "</h1>\n<p><code>" + EscapeHtml(page.command_line) + "</code></p>\n" +
-      NumbersHtml(page.numbers);
+  std::string html = PageHead(page.title) + "<p><code>" + EscapeHtml(page.command_line) +
+                     "</code></p>\n" + NumbersHtml(page.numbers);
   bool in_views = false;
   for (const PlotFigure& figure : page.figures) {
     if (in_views && (!IsNarrow(figure) || !figure.heading.empty())) {

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "msc_vo/report/html_text.h"
-#include "msc_vo/report/web_assets.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
@@ -84,14 +83,9 @@ std::string FormatFailureList(const Benchmark& benchmark) {
 }  // namespace
 
 std::string FormatBenchmarkIndex(const Benchmark& benchmark, const std::string& folder) {
-  std::string html =
-      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<title>msc_vo benchmark</title>\n<style>" +
-      std::string(kReportStyle) +
-      "</style>\n</head>\n<body>\n<h1>msc_vo benchmark</h1>\n<p><code>" +
-      EscapeHtml(benchmark.command_line) + "</code></p>\n<p>msc_vo " + kVersion + ", " +
-      EscapeHtml(benchmark.build) + "; options other than the defaults:";
+  std::string html = PageHead("msc_vo benchmark") + "<p><code>" +
+                     EscapeHtml(benchmark.command_line) + "</code></p>\n<p>msc_vo " + kVersion +
+                     ", " + EscapeHtml(benchmark.build) + "; options other than the defaults:";
   for (const OptionText& option : benchmark.changed_options) {
     html += " <code>" + EscapeHtml(option.path + "=" + option.value) + "</code>";
   }

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "msc_vo/report/html_text.h"
-#include "msc_vo/report/web_assets.h"
 #include "msc_vo/results/internal/json_value.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/version.h"
@@ -119,11 +118,7 @@ std::string FormatPublishedMarkdown(const PublishedTable& table, const Benchmark
 std::string FormatPublishedHtml(const PublishedTable& table, const Benchmark& benchmark,
                                 const std::string& root) {
   std::string html =
-      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-      EscapeHtml(table.title) + "</title>\n<style>" + std::string(kReportStyle) +
-      "</style>\n</head>\n<body>\n<h1>" + EscapeHtml(table.title) + "</h1>\n<p>" +
-      EscapeHtml(Settings(benchmark)) + "</p>\n<table>\n";
+      PageHead(table.title) + "<p>" + EscapeHtml(Settings(benchmark)) + "</p>\n<table>\n";
   const std::vector<Row> rows = Cells(table, benchmark);
   for (size_t i = 0; i < rows.size(); ++i) {
     const std::string tag = i == 0 ? "th" : "td";
