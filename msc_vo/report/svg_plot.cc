@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <utility>
 
 #include "msc_vo/geometry/cell_index.h"
 #include "msc_vo/report/html_text.h"
@@ -70,6 +72,31 @@ std::optional<LineSegment2> Clipped(const LineSegment2& segment, const Eigen::Ve
 }
 
 }  // namespace
+
+void Include(double value, PlotRange* range) {
+  if (!std::isfinite(value)) return;
+  range->min = std::min(range->min, value);
+  range->max = std::max(range->max, value);
+}
+
+void IncludeMost(std::vector<double> values, double cut, PlotRange* range) {
+  values.erase(std::remove_if(values.begin(), values.end(),
+                              [](double value) { return !std::isfinite(value); }),
+               values.end());
+  if (values.empty()) return;
+  std::sort(values.begin(), values.end());
+  const auto num_cut = static_cast<size_t>(cut * static_cast<double>(values.size()));
+  Include(values[num_cut], range);
+  Include(values[values.size() - 1 - num_cut], range);
+}
+
+PlotRange Cover(const std::vector<double>& all, std::vector<double> most, double cut) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  PlotRange range{kInfinity, -kInfinity};
+  for (const double value : all) Include(value, &range);
+  IncludeMost(std::move(most), cut, &range);
+  return range.min > range.max ? PlotRange{0.0, 0.0} : range;
+}
 
 std::vector<double> NiceTicks(const PlotRange& range, int max_ticks) {
   const double step = NiceStep(range.Length(), max_ticks);

@@ -9,9 +9,27 @@
 #include <Eigen/Core>
 
 #include "msc_vo/geometry/line_segment.h"
-#include "msc_vo/report/plot_range.h"
 
 namespace msc_vo {
+
+/// Closed interval of one coordinate of a plot.
+struct PlotRange {
+  double min = 0.0;
+  double max = 1.0;
+
+  double Length() const { return max - min; }
+};
+
+/// Extends the range to contain the value, unless the value is not finite.
+void Include(double value, PlotRange* range);
+
+/// Extends the range to contain the finite values, except the fraction `cut` of the smallest and
+/// the same fraction of the largest ones: outliers must not shrink the rest of a plot.
+void IncludeMost(std::vector<double> values, double cut, PlotRange* range);
+
+/// The smallest range that contains all finite values of `all`, and of `most` what IncludeMost()
+/// keeps; [0, 0] if there are none.
+PlotRange Cover(const std::vector<double>& all, std::vector<double> most, double cut);
 
 /// Multiples of 1, 2 or 5 times a power of ten inside `range`, at most `max_ticks` of them.
 std::vector<double> NiceTicks(const PlotRange& range, int max_ticks);
@@ -51,8 +69,6 @@ class SvgPlot {
     return WithEqualAxes(size, x, y, Margins());
   }
 
-  const PlotRange& x_range() const { return x_; }
-  const PlotRange& y_range() const { return y_; }
   Eigen::Vector2d ToDrawing(const Eigen::Vector2d& point) const;
 
   /// Grid lines, ticks with their values, and the names of the axes.
