@@ -22,8 +22,6 @@ const char* Start(Color color) {
       return "\x1b[31m";
     case Color::kYellow:
       return "\x1b[33m";
-    case Color::kGreen:
-      return "\x1b[32m";
   }
   return "";
 }

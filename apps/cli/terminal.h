@@ -7,7 +7,7 @@
 
 namespace msc_vo {
 
-enum class Color { kRed, kYellow, kGreen };
+enum class Color { kRed, kYellow };
 
 /// Whether text on a file descriptor may be coloured: it is a terminal other than "dumb", and the
 /// environment variable NO_COLOR is not set or empty (https://no-color.org).

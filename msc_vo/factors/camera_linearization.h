@@ -35,13 +35,6 @@ struct CameraPoints {
     }
     return true;
   }
-
-  /// The derivative g of a row by x_k, by the tangent space (w, u) of the pose.
-  Eigen::Matrix<double, 1, 6> ByPose(int k, const Eigen::Vector3d& g) const {
-    Eigen::Matrix<double, 1, 6> row;
-    row << rotated[k].cross(g).transpose(), g.transpose();
-    return row;
-  }
 };
 
 /// d(R(q) X)/dq; columns x, y, z, w.

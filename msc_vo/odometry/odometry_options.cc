@@ -4,7 +4,6 @@
 #include "msc_vo/odometry/odometry_options.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "msc_vo/odometry/option.h"
 
@@ -88,13 +87,6 @@ const char* ToString(Mode mode) {
       return "msc-vo";
   }
   return "unknown";
-}
-
-Mode ModeFromString(const std::string& name) {
-  for (const Mode mode : {Mode::kPlVo, Mode::kPlVoDepth, Mode::kMscVo}) {
-    if (name == ToString(mode)) return mode;
-  }
-  throw std::invalid_argument("unknown mode '" + name + "': choose pl-vo, pl-vo-depth or msc-vo");
 }
 
 bool OdometryOptions::IsValid(std::string* error) const {

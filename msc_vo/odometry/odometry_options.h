@@ -21,9 +21,6 @@ enum class Mode {
 };
 
 const char* ToString(Mode mode);
-/// Parses "pl-vo", "pl-vo-depth" or "msc-vo". Throws std::invalid_argument, naming the choices, on
-/// any other name.
-Mode ModeFromString(const std::string& name);
 
 /// Options of the odometry, see docs/options.md. EffectiveOptions() derives some fields of the
 /// components from others; these are ignored if set.

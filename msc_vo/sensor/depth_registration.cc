@@ -277,9 +277,4 @@ cv::Mat DepthRegistration::Register(const cv::Mat& depth) const {
   return target.TakeDepth();
 }
 
-cv::Mat RegisterDepth(const DepthCamera& depth_camera, const PinholeCamera& color,
-                      const LensDistortion& color_distortion, const cv::Mat& depth) {
-  return DepthRegistration(depth_camera, color, color_distortion).Register(depth);
-}
-
 }  // namespace msc_vo

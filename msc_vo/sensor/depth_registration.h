@@ -60,8 +60,4 @@ class DepthRegistration {
   RegistrationGeometry geometry_;
 };
 
-/// Registers one image, see DepthRegistration, which is faster for several.
-cv::Mat RegisterDepth(const DepthCamera& depth_camera, const PinholeCamera& color,
-                      const LensDistortion& color_distortion, const cv::Mat& depth);
-
 }  // namespace msc_vo

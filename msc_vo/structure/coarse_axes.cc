@@ -19,9 +19,8 @@ using Eigen::Matrix3d;
 
 // Selects, among the 24 rotations that differ in order and signs of the axes, the one nearest to
 // the identity.
-ManhattanAxes InCanonicalOrder(const DirectionEvidence& evidence, const ScoredAxes& scored) {
+ManhattanAxes InCanonicalOrder(const ScoredAxes& scored) {
   std::array<int, 3> order = {0, 1, 2};
-  std::array<int, 3> best_order = order;
   Matrix3d best = Matrix3d::Zero();
   double best_trace = -4.0;
   do {
@@ -33,17 +32,10 @@ ManhattanAxes InCanonicalOrder(const DirectionEvidence& evidence, const ScoredAx
       if (axes.determinant() < 0.0 || axes.trace() <= best_trace) continue;
       best = axes;
       best_trace = axes.trace();
-      best_order = order;
     }
   } while (std::next_permutation(order.begin(), order.end()));
   ManhattanAxes result;
   result.rotation = Eigen::Quaterniond(best).normalized();
-  const double num_lines = std::max<double>(1.0, evidence.num_lines);
-  const double num_normals = std::max<double>(1.0, evidence.NumNormals());
-  for (int i = 0; i < 3; ++i) {
-    result.line_ratio[i] = scored.num_lines[best_order[i]] / num_lines;
-    result.normal_ratio[i] = scored.num_normals[best_order[i]] / num_normals;
-  }
   result.explained_ratio = scored.explained_ratio;
   return result;
 }
@@ -64,7 +56,7 @@ std::optional<ManhattanAxes> FindCoarseAxes(const std::vector<AxisEvidence>& lin
       HasRival(evidence, hypotheses, best->axes)) {
     return std::nullopt;
   }
-  return InCanonicalOrder(evidence, *best);
+  return InCanonicalOrder(*best);
 }
 
 }  // namespace msc_vo

@@ -20,8 +20,6 @@ struct ManhattanAxes {
   /// The columns of its matrix are the axes in the frame of the evidence. Of the 24 rotations that
   /// differ in the order and signs of the axes, the one nearest to the identity.
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d line_ratio = Eigen::Vector3d::Zero();    ///< fraction of all lines, per axis
-  Eigen::Vector3d normal_ratio = Eigen::Vector3d::Zero();  ///< fraction of all normals, per axis
   double explained_ratio = 0.0;  ///< fraction of the weighted evidence, both kinds together
 };
 

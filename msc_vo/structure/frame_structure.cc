@@ -251,7 +251,6 @@ FrameStructureSummary RefineFrameStructure(const FrameStructureOptions& options,
     depth.start = blocks[k][0];
     depth.end = blocks[k][1];
     depth.covariance = covariances[k].topLeftCorner<2, 2>();
-    ++summary.num_refined;
   }
   return summary;
 }

@@ -63,7 +63,9 @@ class CameraLinearizationTest : public ::testing::Test {
     EXPECT_THAT(at.residual, IsNear(expected.residual, 1e-9));
     for (int row = 0; row < Factor::kNumResiduals; ++row) {
       const int k = row / Factor::kRowsPerPoint;
-      const Eigen::RowVectorXd j = points.ByPose(k, at.by_x[k].row(row % Factor::kRowsPerPoint));
+      const Eigen::Vector3d by_x = at.by_x[k].row(row % Factor::kRowsPerPoint);
+      Eigen::Matrix<double, 1, 6> j;
+      j << points.rotated[k].cross(by_x).transpose(), by_x.transpose();
       EXPECT_THAT(j, IsNear(expected.jacobians[0].row(row), 1e-9 * (1.0 + j.norm())));
     }
   }

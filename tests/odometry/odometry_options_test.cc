@@ -61,13 +61,6 @@ TEST(OdometryOptions, CheckOptionsThatAreNotListed) {
               Names("reject_chi2_1"));
 }
 
-TEST(Mode, HasANameThatIsParsed) {
-  for (const Mode mode : {Mode::kPlVo, Mode::kPlVoDepth, Mode::kMscVo}) {
-    EXPECT_EQ(ModeFromString(ToString(mode)), mode);
-  }
-  EXPECT_THROW(ModeFromString("orb"), std::invalid_argument);
-}
-
 TEST(EffectiveOptions, DisableWhatTheModeDoesNotInclude) {
   OdometryOptions options;
   options.mode = Mode::kPlVo;

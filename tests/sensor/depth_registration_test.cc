@@ -91,7 +91,8 @@ constexpr double kRounding = 2e-6;  // 1/metres, of single precision
 TEST(DepthRegistration, IsExactOnPlanes) {
   for (const Vector3d& normal : kPlanes) {
     for (const LensDistortion& lens : {LensDistortion(), Lens()}) {
-      const cv::Mat registered = RegisterDepth(Rig(), Color(), lens, Measure(Rig(), {{normal}}));
+      const cv::Mat registered =
+          DepthRegistration(Rig(), Color(), lens).Register(Measure(Rig(), {{normal}}));
       double coverage = 0.0;
       EXPECT_LT(LargestError(registered, normal, lens, &coverage), kRounding);
       EXPECT_GT(coverage, 0.75);  // the depth camera sees less
@@ -119,7 +120,7 @@ TEST(DepthRegistration, IsExactForOtherLenses) {
         depth.at<float>(y, x) = z > 0.0 ? static_cast<float>(z) : 0.0f;
       }
     }
-    const cv::Mat registered = RegisterDepth(rig, color, lens, depth);
+    const cv::Mat registered = DepthRegistration(rig, color, lens).Register(depth);
     double largest = 0.0;
     int holes = 0;
     for (int y = 0; y < registered.rows; ++y) {
@@ -147,7 +148,8 @@ TEST(DepthRegistration, IsExactForOtherSizes) {
               scale * (camera.cy + 0.5) - 0.5,
               static_cast<int>(scale * camera.width),
               static_cast<int>(scale * camera.height)};
-    const cv::Mat registered = RegisterDepth(rig, Color(), Lens(), Measure(rig, {{kPlanes[1]}}));
+    const cv::Mat registered =
+        DepthRegistration(rig, Color(), Lens()).Register(Measure(rig, {{kPlanes[1]}}));
     ASSERT_EQ(registered.size(), cv::Size(320, 240));
     double coverage = 0.0;
     EXPECT_LT(LargestError(registered, kPlanes[1], Lens(), &coverage), kRounding);
@@ -168,7 +170,8 @@ TEST(DepthRegistration, IsExactWhereColorPixelsAreSmall) {
              static_cast<int>(scale * 240.0) | 1};
     for (const Vector3d& normal : kPlanes) {
       for (const LensDistortion& lens : {LensDistortion(), Lens()}) {
-        const cv::Mat registered = RegisterDepth(Rig(), color, lens, Measure(Rig(), {{normal}}));
+        const cv::Mat registered =
+            DepthRegistration(Rig(), color, lens).Register(Measure(Rig(), {{normal}}));
         double largest = 0.0;
         int holes = 0;
         for (int y = 0; y < registered.rows; ++y) {
@@ -205,7 +208,7 @@ TEST(DepthRegistration, KeepsThinObjectsInFrontOfAWall) {
       const std::vector<MaskedPlane> planes = {
           {{0.0, 0.0, 1.0}, [&](const Vector3d& x) { return std::abs(x.x() - center) < radius; }},
           {{0.0, 0.0, 1.0 / 3.0}}};
-      const cv::Mat registered = RegisterDepth(rig, color, {}, Measure(rig, planes));
+      const cv::Mat registered = DepthRegistration(rig, color, {}).Register(Measure(rig, planes));
       const int x = static_cast<int>(std::lround(color.cx + color.fx * center));
       const cv::Mat around = registered(cv::Rect(x - 2, 30, 5, color.height - 60));
       for (int y = 0; y < around.rows; ++y) {
@@ -221,12 +224,12 @@ TEST(DepthRegistration, IsExactForTurnedAndMirroredCameras) {
   DepthCamera rig = Rig();
   rig.depth_from_color = {ExpSO3({0.0, 0.0, 0.7}), {0.05, -0.02, -0.01}};
   double coverage = 0.0;
-  cv::Mat registered = RegisterDepth(rig, Color(), {}, Measure(rig, {{kPlanes[1]}}));
+  cv::Mat registered = DepthRegistration(rig, Color(), {}).Register(Measure(rig, {{kPlanes[1]}}));
   EXPECT_LT(LargestError(registered, kPlanes[1], {}, &coverage), kRounding);
   EXPECT_EQ(cv::countNonZero(registered(cv::Rect(110, 70, 100, 100)) == 0.0f), 0);
   rig = Rig();
   rig.camera.fy = -rig.camera.fy;
-  registered = RegisterDepth(rig, Color(), {}, Measure(rig, {{kPlanes[1]}}));
+  registered = DepthRegistration(rig, Color(), {}).Register(Measure(rig, {{kPlanes[1]}}));
   EXPECT_LT(LargestError(registered, kPlanes[1], {}, &coverage), kRounding);
   EXPECT_GT(coverage, 0.8);
 }
@@ -238,7 +241,8 @@ TEST(DepthRegistration, IsEmptyForCamerasThatLookPastEachOther) {
       rig.depth_from_color = {ExpSO3(angle * axis), {-0.025, 0.004, 0.003}};
       const cv::Mat depth(rig.camera.height, rig.camera.width, CV_32FC1, cv::Scalar(2.0f));
       for (const LensDistortion& lens : {LensDistortion(), Lens()}) {
-        EXPECT_EQ(cv::countNonZero(RegisterDepth(rig, Color(), lens, depth)), 0) << angle;
+        EXPECT_EQ(cv::countNonZero(DepthRegistration(rig, Color(), lens).Register(depth)), 0)
+            << angle;
       }
     }
   }
@@ -250,8 +254,9 @@ TEST(DepthRegistration, AddsInverseDepthOffset) {
   rig.inverse_depth_offset = 0.02;
   depth.forEach<float>([](float& z, const int*) { z = 1.0f / (1.0f / z - 0.02f); });
   double coverage = 0.0;
-  EXPECT_LT(LargestError(RegisterDepth(rig, Color(), {}, depth), kPlanes[1], {}, &coverage),
-            kRounding);
+  EXPECT_LT(
+      LargestError(DepthRegistration(rig, Color(), {}).Register(depth), kPlanes[1], {}, &coverage),
+      kRounding);
 }
 
 // A post at one metre in front of a wall at three metres.
@@ -265,7 +270,8 @@ TEST(DepthRegistration, OccludesAndDoesNotBridge) {
   rig.camera = {292.0, 292.0, 160.0, 120.0, 320, 240};
   rig.depth_from_color.translation() = Vector3d(-0.025, 0.0, 0.0);  // to the right of colour
   const PinholeCamera color = {260.0, 260.0, 160.0, 120.0, 320, 240};
-  const cv::Mat registered = RegisterDepth(rig, color, {}, Measure(rig, PostAndWall()));
+  const cv::Mat registered =
+      DepthRegistration(rig, color, {}).Register(Measure(rig, PostAndWall()));
   for (int y = 20; y < 220; ++y) {
     for (int x = 40; x < 280; ++x) {
       const double depth = registered.at<float>(y, x);
@@ -293,12 +299,12 @@ TEST(DepthRegistration, DoesNotShowBackgroundThroughHoles) {
   rig.depth_from_color.translation() = Vector3d(-0.05, 0.0, 0.0);
   const PinholeCamera color = {260.0, 260.0, 160.0, 120.0, 320, 240};
   cv::Mat depth = Measure(rig, PostAndWall());
-  const cv::Mat complete = RegisterDepth(rig, color, {}, depth);
+  const cv::Mat complete = DepthRegistration(rig, color, {}).Register(depth);
   // Points of the wall land on columns 177.3 to 186 of the colour image. A hole of the post there:
   // colour column 180 is x = 0.0769, and depth column 160 + 292 * (0.0769 - 0.05) = 167.9.
   ASSERT_NEAR(complete.at<float>(120, 180), 1.0, 1e-5);
   depth(cv::Rect(167, 119, 2, 3)).setTo(0.0f);
-  const cv::Mat registered = RegisterDepth(rig, color, {}, depth);
+  const cv::Mat registered = DepthRegistration(rig, color, {}).Register(depth);
   int num_missing = 0;
   for (int y = 100; y < 140; ++y) {
     for (int x = 140; x < 185; ++x) {
@@ -317,7 +323,7 @@ TEST(DepthRegistration, KeepsMissingDepthAndIgnoresInvalid) {
   depth(cv::Rect(100, 140, 20, 20)).setTo(-1.0f);
   depth.at<float>(60, 200) = 1e-30f;
   depth.at<float>(60, 210) = std::numeric_limits<float>::infinity();
-  const cv::Mat registered = RegisterDepth(Rig(), Color(), {}, depth);
+  const cv::Mat registered = DepthRegistration(Rig(), Color(), {}).Register(depth);
   // 20 pixels of the depth image are 17.9 of the colour image.
   EXPECT_NEAR(cv::countNonZero(registered(cv::Rect(60, 45, 200, 150)) == 0.0f), 3 * 17.9 * 17.9,
               3 * 2 * 17.9);
@@ -333,7 +339,7 @@ TEST(DepthRegistration, DoesNotAddNoise) {
     float& z = depth.ptr<float>()[i];
     z = 1.0f / (1.0f / z + noise(random));
   }
-  const cv::Mat registered = RegisterDepth(Rig(), Color(), {}, depth);
+  const cv::Mat registered = DepthRegistration(Rig(), Color(), {}).Register(depth);
   EXPECT_EQ(cv::countNonZero(registered(cv::Rect(60, 45, 200, 150)) == 0.0f), 0);
   double sum = 0.0, squares = 0.0;
   for (int y = 45; y < 195; ++y) {

@@ -93,12 +93,12 @@ std::vector<NamedFunction> Functions() {
          return AlignDepth(kCamera, depth,
                            Rigid3(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0.05, 0.0, 0.0)));
        }},
-      {"RegisterDepth",
+      {"DepthRegistration",
        [](const cv::Mat&, const cv::Mat& depth) {
          DepthCamera depth_camera;
          depth_camera.camera = kCamera;
          depth_camera.depth_from_color.translation().x() = 0.025;
-         return RegisterDepth(depth_camera, kCamera, {}, depth);
+         return DepthRegistration(depth_camera, kCamera, {}).Register(depth);
        }},
       {"RecordedImage", [](const cv::Mat& gray, const cv::Mat& depth) {
          return RecordedImage(gray, depth).Depth();

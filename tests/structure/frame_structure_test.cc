@@ -203,7 +203,6 @@ TEST_P(FrameStructureTest, ChangesDepthsOfPairedLinesOnly) {
     EXPECT_GT(lines[i].depth.covariance.determinant(), 0.0);
     changed += !IsSameDepth(lines[i].depth, frame.lines[i].depth);
   }
-  EXPECT_EQ(changed, summary.num_refined);
   EXPECT_LT(changed, 60);
   EXPECT_GT(changed, 40);
   EXPECT_LT(summary.final_cost, summary.initial_cost);
@@ -218,7 +217,6 @@ TEST_P(FrameStructureTest, LimitsPartnersIndependentOfOrder) {
   const int num_lines = static_cast<int>(lines.size());
   EXPECT_LE(summary.num_parallel, kMaxPartners * num_lines);
   EXPECT_LE(summary.num_perpendicular, kMaxPartners * num_lines);
-  EXPECT_GT(summary.num_refined, 40);
   const FrameStructureSummary other = RefineFrameStructure(options_, frame.camera, &reversed);
   EXPECT_EQ(other.num_parallel, summary.num_parallel);
   for (size_t i = 0; i < lines.size(); ++i) {

@@ -175,8 +175,9 @@ inline std::shared_ptr<const Frame> MeasureSimulatedDepth(
       std::make_shared<Frame>(*ChangeIntrinsics(std::make_shared<Frame>(frame), intrinsics));
   cv::Mat registered = metres;
   if (intrinsics->registration) {
-    registered = RegisterDepth(DepthCameraOf(given, *intrinsics), intrinsics->camera,
-                               intrinsics->distortion, metres);
+    registered = DepthRegistration(DepthCameraOf(given, *intrinsics), intrinsics->camera,
+                                   intrinsics->distortion)
+                     .Register(metres);
   }
   const InverseDepthImage depth(registered, 0.2, 10.0);
   for (PointFeature& point : measured->points) {
