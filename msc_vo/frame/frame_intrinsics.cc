@@ -109,7 +109,7 @@ std::shared_ptr<const Frame> ChangeCamera(const std::shared_ptr<const Frame>& fr
     }
   });
   const int levels = static_cast<int>(std::lround(std::log(scale) / std::log(kPyramidScale)));
-  for (PointFeature& point : changed->points) point.level = std::max(0, point.level + levels);
+  for (PointFeature& point : changed->points) point.level += levels;
   changed->camera = camera;
   if (frame->intrinsics) changed->intrinsics = ChangeCamera(*frame->intrinsics, camera);
   changed->grid = FeatureGrid(camera, changed->points);

@@ -16,8 +16,8 @@ constexpr double kPyramidScale = 1.2;
 /// A point feature p_i of the paper. Pixels are undistorted.
 struct PointFeature {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
-  double sigma = 1.0;                ///< pixels, standard deviation of each coordinate
-  int level = 0;                     ///< pyramid level, 0 is the full image
+  double sigma = 1.0;  ///< pixels, standard deviation of each coordinate
+  int level = 0;  ///< pyramid level, 0 is the full image; below 0: of a camera of larger images
   bool dynamic = false;              ///< on a dynamic object: must not create a landmark
   double angle = 0.0;                ///< radians, orientation in the image
   double inverse_depth = 0.0;        ///< 1/metres; 0: no depth measured

@@ -36,13 +36,13 @@ std::pair<LandmarkId, LandmarkId> SelectSurvivor(const L& a, const L& b) {
 // The landmarks of keyframe `source` that project into `target`, which does not observe them.
 template <typename L>
 Candidates<L> CandidatesFor(const Map& map, const Keyframe& source, const Keyframe& target) {
-  const Eigen::Vector3d center = target.cam_from_world.OriginInSource();
+  const Viewpoint view(*target.frame, target.cam_from_world);
   Candidates<L> candidates;
   for (const LandmarkId id : SlotsOf<L>(source)) {
     const L* landmark = map.Find<L>(id);
     if (landmark == nullptr || FindObservation(*landmark, target.id) != nullptr) continue;
     auto candidate = CandidateOf(*landmark);
-    SetLevel(center, *landmark, &candidate);
+    SetLevel(view, *landmark, &candidate);
     if (ProjectCandidate(target.frame->camera, target.cam_from_world, &candidate)) {
       candidates.push_back(candidate);
     }

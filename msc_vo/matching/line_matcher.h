@@ -46,7 +46,7 @@ inline LineCandidate CandidateOf(const LineFeature& feature, LandmarkId id,
 }
 
 /// Does nothing: lines have no pyramid level.
-inline void SetLevel(const Eigen::Vector3d& /*center*/, const LineLandmark& /*line*/,
+inline void SetLevel(const Viewpoint& /*view*/, const LineLandmark& /*line*/,
                      LineCandidate* /*candidate*/) {}
 
 /// Projects `segment` and clips it to the image. Returns false if no part is visible or the visible

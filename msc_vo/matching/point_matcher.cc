@@ -7,10 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <tuple>
-
-#include "msc_vo/geometry/cell_index.h"
 
 namespace msc_vo {
 
@@ -21,16 +18,18 @@ constexpr int kNoDistance = 257;  // more than the 256 bits of a descriptor
 // rounded, and a corner may be detected on either side.
 constexpr int kMaxLevelDifference = 1;
 
-// The size of a pixel of a pyramid level, in pixels of the image; levels beyond those of the table
-// have no features.
+// Features have levels of less than this magnitude.
+constexpr int kMaxLevel = 32;
+
+// The size of a pixel of a pyramid level, in pixels of the image.
 double PixelSize(int level) {
-  constexpr int kNumLevels = 32;
-  static const std::array<double, kNumLevels> sizes = [] {
-    std::array<double, kNumLevels> powers;
-    for (int i = 0; i < kNumLevels; ++i) powers[i] = std::pow(kPyramidScale, i);
+  static const std::array<double, 2 * kMaxLevel + 1> sizes = [] {
+    std::array<double, 2 * kMaxLevel + 1> powers;
+    for (int i = -kMaxLevel; i <= kMaxLevel; ++i)
+      powers[i + kMaxLevel] = std::pow(kPyramidScale, i);
     return powers;
   }();
-  return sizes[std::clamp(level, 0, kNumLevels - 1)];
+  return sizes[std::clamp(level, -kMaxLevel, kMaxLevel) + kMaxLevel];
 }
 
 struct Best {
@@ -78,10 +77,10 @@ PointCandidate CandidateOf(const PointLandmark& point) {
   return candidate;
 }
 
-void SetLevel(const Eigen::Vector3d& center, const PointLandmark& point,
-              PointCandidate* candidate) {
-  const double level = point.PredictLevel((point.position - center).norm());
-  candidate->level = CellIndex(std::round(level), std::numeric_limits<int>::max());
+void SetLevel(const Viewpoint& view, const PointLandmark& point, PointCandidate* candidate) {
+  const double level = point.PredictLevel((point.position - view.center).norm());
+  candidate->level =
+      static_cast<int>(std::lround(std::clamp<double>(level, view.lowest_level, kMaxLevel)));
 }
 
 bool ProjectCandidate(const PinholeCamera& camera, const Rigid3& cam_from_world,
@@ -99,8 +98,9 @@ bool IsVisible(const Viewpoint& view, const PointLandmark& point, PointCandidate
   if (!Viewpoint::HasSimilarAngle(point, ray)) return false;
   const double level = point.PredictLevel(ray.norm());
   // One level of tolerance on both sides, as in the matcher.
-  if (!(level > -1.5 && level < view.highest_level + 1.5)) return false;
-  candidate->level = std::clamp(static_cast<int>(std::lround(level)), 0, view.highest_level);
+  if (!(level > view.lowest_level - 1.5 && level < view.highest_level + 1.5)) return false;
+  candidate->level =
+      std::clamp(static_cast<int>(std::lround(level)), view.lowest_level, view.highest_level);
   return ProjectCandidate(view.frame.camera, view.cam_from_world, candidate);
 }
 

@@ -49,8 +49,8 @@ inline PointCandidate CandidateOf(const PointFeature& feature, LandmarkId id,
   return {id, position, feature.descriptor, Eigen::Vector2d::Zero(), feature.level};
 }
 
-/// Sets the pyramid level at which a camera at `center` (world) is expected to show a landmark.
-void SetLevel(const Eigen::Vector3d& center, const PointLandmark& point, PointCandidate* candidate);
+/// Sets the pyramid level at which a frame is expected to show a landmark.
+void SetLevel(const Viewpoint& view, const PointLandmark& point, PointCandidate* candidate);
 
 /// Projects `position`. Returns false if it lies outside the image or behind the camera.
 bool ProjectCandidate(const PinholeCamera& camera, const Rigid3& cam_from_world,

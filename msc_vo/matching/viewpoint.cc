@@ -10,13 +10,7 @@ namespace msc_vo {
 namespace {
 
 // Highest pyramid level of the extractor's default.
-constexpr int kMaxLevel = 7;
-
-int HighestLevel(const Frame& frame) {
-  int level = kMaxLevel;
-  for (const PointFeature& point : frame.points) level = std::max(level, point.level);
-  return level;
-}
+constexpr int kExtractedLevel = 7;
 
 }  // namespace
 
@@ -24,6 +18,12 @@ Viewpoint::Viewpoint(const Frame& frame_in, const Rigid3& cam_from_world_in)
     : frame(frame_in),
       cam_from_world(cam_from_world_in),
       center(cam_from_world.OriginInSource()),
-      highest_level(HighestLevel(frame)) {}
+      lowest_level(0),
+      highest_level(kExtractedLevel) {
+  for (const PointFeature& point : frame.points) {
+    lowest_level = std::min(lowest_level, point.level);
+    highest_level = std::max(highest_level, point.level);
+  }
+}
 
 }  // namespace msc_vo

@@ -21,8 +21,9 @@ struct Viewpoint {
   const Frame& frame;
   Rigid3 cam_from_world;
   Eigen::Vector3d center;  ///< of the camera, metres, world
-  /// Highest pyramid level that the frame may have point features of; nearer points cannot be
-  /// matched.
+  /// Lowest and highest pyramid level that the frame may have point features of; points that are
+  /// farther or nearer cannot be matched.
+  int lowest_level;
   int highest_level;
 
   /// Whether the ray (metres, world) from the camera to a landmark is close to its mean viewing

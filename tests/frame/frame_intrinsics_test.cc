@@ -103,7 +103,10 @@ TEST(ChangeCamera, ScalesPyramidLevels) {
   frame->points[0].level = 5;
   const double f = 500.0 / (kPyramidScale * kPyramidScale);
   EXPECT_EQ(ChangeCamera(frame, {f, f, 320.0, 240.0, 640, 480})->points[0].level, 3);
-  EXPECT_EQ(ChangeCamera(frame, {5.0, 5.0, 320.0, 240.0, 640, 480})->points[0].level, 0);
+  // Finer than the image of a quarter of the size, which loses nothing.
+  const auto quarter = ChangeCamera(frame, {125.0, 125.0, 80.0, 60.0, 160, 120});
+  EXPECT_EQ(quarter->points[0].level, -3);
+  EXPECT_EQ(ChangeCamera(quarter, kCamera)->points[0].level, 5);
   EXPECT_EQ(ChangeCamera(frame, kCamera), frame);
 }
 

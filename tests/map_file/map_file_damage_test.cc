@@ -88,9 +88,9 @@ TEST_F(MapFileDamageTest, WritesIntoEmptyFileAndSaysThatItIsEmpty) {
 }
 
 TEST_F(MapFileDamageTest, RefusesNewerVersion) {
-  Change("PRAGMA user_version = 5");
-  EXPECT_THAT(Problem(), Names(path_, "version 5", "newer msc_vo"));
-  EXPECT_THAT(MessageOf([&] { MapWriter writer(path_); }), Names(path_, "version 5"));
+  Change("PRAGMA user_version = 6");
+  EXPECT_THAT(Problem(), Names(path_, "version 6", "newer msc_vo"));
+  EXPECT_THAT(MessageOf([&] { MapWriter writer(path_); }), Names(path_, "version 6"));
 }
 
 TEST_F(MapFileDamageTest, RefusesOtherTables) {

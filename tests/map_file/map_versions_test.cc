@@ -3,6 +3,7 @@
 
 // Files of every version that was ever released can be read (tests/data/maps).
 
+#include <algorithm>
 #include <filesystem>
 #include <vector>
 
@@ -116,6 +117,17 @@ TEST_F(MapVersionsTest, ReadsTheImagesOfVersion4) {
   EXPECT_EQ(images.Keyframes(), keyframes);
 }
 
+// The first session had images of twice the size.
+TEST_F(MapVersionsTest, ReadsTheFineLevelsOfVersion5) {
+  const MapContents contents = Load(5);
+  ASSERT_EQ(contents.sessions.size(), 2u);
+  for (const auto& [id, keyframe] : contents.submaps[0].map.keyframes()) {
+    int lowest = 0;
+    for (const PointFeature& point : keyframe.frame->points) lowest = std::min(lowest, point.level);
+    EXPECT_EQ(lowest, id < contents.sessions[1].first_keyframe ? -4 : 0) << id;
+  }
+}
+
 TEST_F(MapVersionsTest, ExtendsVersion1) {
   const std::string path = Copy("version_1.map");
   MapWriter writer(path);
@@ -130,7 +142,7 @@ TEST_F(MapVersionsTest, ExtendsVersion1) {
   EXPECT_EQ(extended.sessions.size(), 3u);
   EXPECT_NEAR(extended.submaps[0].noise_scale.line_pixel, 0.77900126102768, 1e-12);
   EXPECT_EQ(extended.submaps[0].map.points().size(), 283u);
-  EXPECT_EQ(SummarizeMap(Path("copy.map")).version, 4);
+  EXPECT_EQ(SummarizeMap(Path("copy.map")).version, 5);
   EXPECT_THAT(MapImages(Path("copy.map")).Keyframes(), testing::ElementsAre(own));
   EXPECT_EQ(MapImages(Path("copy.map")).Read(own), jpeg);
 }

@@ -95,7 +95,7 @@ class RandomMap {
     PointFeature point;
     point.pixel = Pixel();
     point.sigma = Uniform(0.5, 3.0);
-    point.level = static_cast<int>(Uniform(0.0, 7.9));
+    point.level = static_cast<int>(Uniform(-64.9, 63.9));
     point.dynamic = Uniform(0.0, 1.0) < 0.1;
     point.angle = Uniform(0.0, 6.28);
     if (Uniform(0.0, 1.0) < 0.8) {

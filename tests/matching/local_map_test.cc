@@ -160,6 +160,16 @@ TEST_F(LocalMapTest, PredictsThePyramidLevelFromTheDistance) {
   EXPECT_EQ(level(-1.6), kNoId);
 }
 
+TEST_F(LocalMapTest, CoversTheLevelsOfAKeyframeOfLargerImages) {
+  Frame frame = *frame_;
+  frame.points[1].level = -3;
+  const Rigid3 far = LookFrom(0.0, 2.0 * std::pow(kPyramidScale, 3.4));
+  const LocalMap local = SelectLocalMap(map_, frame, far, {}, 2, kAllKeyframes);
+  ASSERT_THAT(PointIds(local), ElementsAre(only_2_));
+  EXPECT_EQ(local.points.front().level, -3);
+  EXPECT_THAT(PointIds(SelectFrom(far)), IsEmpty());
+}
+
 TEST_F(LocalMapTest, CoversTheLevelsOfAHigherPyramid) {
   Frame frame = *frame_;
   frame.points[1].level = 11;

@@ -72,6 +72,17 @@ TEST_F(PointMatcherTest, RequiresASimilarLevel) {
   EXPECT_EQ(MatchPoints(options_, frame_, {Candidate(7, 100, 100, zero_, 3)}, 10, {}).size(), 1u);
 }
 
+// Of keyframes of larger images. A pixel there is smaller, and so is the place to search.
+TEST_F(PointMatcherTest, MatchesLevelsFinerThanTheImage) {
+  AddFeature(100, 100, zero_, -8);
+  const auto matches = [this](double x, int level) {
+    return MatchPoints(options_, frame_, {Candidate(7, x, 100, zero_, level)}, 10.0, {}).size();
+  };
+  EXPECT_EQ(matches(102, -8), 1u);
+  EXPECT_EQ(matches(103, -8), 0u);  // 10 pixels / 1.2^8 = 2.3 pixels
+  EXPECT_EQ(matches(100, 0), 0u);
+}
+
 TEST_F(PointMatcherTest, AssignsAFeatureToItsBestCandidate) {
   AddFeature(100, 100, Flip(zero_, 10));
   const auto matches =

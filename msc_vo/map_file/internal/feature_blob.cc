@@ -15,6 +15,8 @@ namespace {
 
 constexpr uint8_t kDynamic =
     0x80;  // in the byte of the level of a point and of the flags of a line
+constexpr uint8_t kLevelBits = 0x7f;  // in the byte of the level of a point: two's complement
+constexpr int kLevels = kLevelBits + 1;
 constexpr uint8_t kHasDepth = 0x01;
 constexpr double kTurn = 256.0;  // units of an angle in the image
 constexpr double kCorrelationUnits = 32767.0;
@@ -31,7 +33,8 @@ void PutPixel(const Eigen::Vector2d& pixel, BlobWriter* blob) {
 void Put(const PointFeature& point, BlobWriter* blob) {
   PutPixel(point.pixel, blob);
   PutSigma(point.sigma, blob);
-  blob->U8(static_cast<uint8_t>(point.level | (point.dynamic ? kDynamic : 0)));
+  const auto level = static_cast<uint8_t>(std::clamp(point.level, -kLevels / 2, kLevels / 2 - 1));
+  blob->U8((level & kLevelBits) | (point.dynamic ? kDynamic : 0));
   blob->U8(static_cast<uint8_t>(std::lround(point.angle / (2.0 * kPi) * kTurn)));
   blob->F32(point.inverse_depth);
   if (point.HasDepth()) {
@@ -81,7 +84,8 @@ PointFeature GetPoint(BlobReader* blob) {
   point.pixel = GetPixel(blob);
   point.sigma = GetSigma(blob);
   const uint8_t level = blob->U8();
-  point.level = level & ~kDynamic;
+  point.level =
+      (level & kLevelBits) < kLevels / 2 ? level & kLevelBits : (level & kLevelBits) - kLevels;
   point.dynamic = (level & kDynamic) != 0;
   point.angle = blob->U8() / kTurn * 2.0 * kPi;
   point.inverse_depth = blob->F32();

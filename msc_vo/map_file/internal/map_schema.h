@@ -10,7 +10,7 @@
 namespace msc_vo {
 
 /// Version of the tables, docs/map_file.md.
-constexpr int kMapFileVersion = 4;
+constexpr int kMapFileVersion = 5;
 /// The first version with the tables of planes.
 constexpr int kFirstVersionWithPlanes = 2;
 /// The first version with the table of landmarks whose depth is false.
