@@ -14,6 +14,8 @@ namespace msc_vo {
 
 namespace internal {
 
+constexpr size_t kMaxFields = 24;
+
 struct AnyValue {
   template <typename T>
   operator T() const;
@@ -26,11 +28,13 @@ constexpr bool kTakesValues<T, std::index_sequence<I...>,
 
 }  // namespace internal
 
-/// Number of fields of an aggregate of at most `max`: the largest number of values that its braces
-/// accept. Does not compile with a field that is an optional matrix of Eigen.
-template <typename T, size_t max = 24>
+/// Number of fields of an aggregate, at least 1 and at most kMaxFields: the largest number of values
+/// that its braces accept. Does not compile with a field that is an optional matrix of Eigen.
+template <typename T, size_t max = internal::kMaxFields + 1>
 constexpr size_t NumFields() {
-  if constexpr (max == 0 || internal::kTakesValues<T, std::make_index_sequence<max>>) {
+  static_assert(!std::is_empty_v<T>, "a struct without fields");
+  if constexpr (internal::kTakesValues<T, std::make_index_sequence<max>>) {
+    static_assert(max <= internal::kMaxFields, "more fields than can be counted");
     return max;
   } else {
     return NumFields<T, max - 1>();

@@ -9,8 +9,7 @@
 
 namespace msc_vo {
 
-/// Builds the bytes of a binary format with little-endian numbers; the host is little-endian, as
-/// for the rest of msc_vo.
+/// Builds the bytes of a binary format with little-endian numbers.
 class LittleEndianBytes {
  public:
   template <typename Number>

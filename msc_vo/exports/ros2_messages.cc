@@ -16,7 +16,7 @@ using namespace fast_cdr;
 
 constexpr int64_t kNanoseconds = 1'000'000'000;
 
-// Serialises the fields of a message, the lowest byte first on any machine.
+// Serialises the fields of a message, the lowest byte first.
 class CdrWriter {
  public:
   CdrWriter() { cdr_.serialize_encapsulation(); }

@@ -18,15 +18,15 @@ constexpr int kNoDistance = 257;  // more than the 256 bits of a descriptor
 // rounded, and a corner may be detected on either side.
 constexpr int kMaxLevelDifference = 1;
 
-// Features have levels of less than this magnitude.
-constexpr int kMaxLevel = 32;
-
-// The size of a pixel of a pyramid level, in pixels of the image.
+// The size of a pixel of a pyramid level, in pixels of the image. The table covers all levels of an
+// extractor, up to 32, and those of images of 340 times the size.
 double PixelSize(int level) {
+  constexpr int kMaxLevel = 32;
   static const std::array<double, 2 * kMaxLevel + 1> sizes = [] {
     std::array<double, 2 * kMaxLevel + 1> powers;
-    for (int i = -kMaxLevel; i <= kMaxLevel; ++i)
+    for (int i = -kMaxLevel; i <= kMaxLevel; ++i) {
       powers[i + kMaxLevel] = std::pow(kPyramidScale, i);
+    }
     return powers;
   }();
   return sizes[std::clamp(level, -kMaxLevel, kMaxLevel) + kMaxLevel];
@@ -79,8 +79,9 @@ PointCandidate CandidateOf(const PointLandmark& point) {
 
 void SetLevel(const Viewpoint& view, const PointLandmark& point, PointCandidate* candidate) {
   const double level = point.PredictLevel((point.position - view.center).norm());
+  const int highest = view.highest_level + 2;  // too high for any feature to match
   candidate->level =
-      static_cast<int>(std::lround(std::clamp<double>(level, view.lowest_level, kMaxLevel)));
+      static_cast<int>(std::lround(std::clamp<double>(level, view.lowest_level, highest)));
 }
 
 bool ProjectCandidate(const PinholeCamera& camera, const Rigid3& cam_from_world,

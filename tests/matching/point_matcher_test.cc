@@ -72,7 +72,7 @@ TEST_F(PointMatcherTest, RequiresASimilarLevel) {
   EXPECT_EQ(MatchPoints(options_, frame_, {Candidate(7, 100, 100, zero_, 3)}, 10, {}).size(), 1u);
 }
 
-// Of keyframes of larger images. A pixel there is smaller, and so is the place to search.
+// A keyframe of larger images has such levels. Its pixels are smaller, and so is the radius.
 TEST_F(PointMatcherTest, MatchesLevelsFinerThanTheImage) {
   AddFeature(100, 100, zero_, -8);
   const auto matches = [this](double x, int level) {
