@@ -28,8 +28,9 @@ constexpr bool kTakesValues<T, std::index_sequence<I...>,
 
 }  // namespace internal
 
-/// Number of fields of an aggregate, at least 1 and at most kMaxFields: the largest number of values
-/// that its braces accept. Does not compile with a field that is an optional matrix of Eigen.
+/// Number of fields of an aggregate, at least 1 and at most kMaxFields: the largest number of
+/// values that its braces accept. Does not compile with a field that is an optional matrix of
+/// Eigen.
 template <typename T, size_t max = internal::kMaxFields + 1>
 constexpr size_t NumFields() {
   static_assert(!std::is_empty_v<T>, "a struct without fields");
