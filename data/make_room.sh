@@ -12,4 +12,4 @@ if [[ ! -x $msc_vo ]]; then
 fi
 # A fast camera and five images per second show three walls of the room in a few megabytes.
 exec "$msc_vo" synthesize data/room --scene room --seed 8 --frames 32 --fps 5 --speed 0.5 \
-  --noise kinect --image-sigma 1 --jpeg --jpeg-quality 90
+  --noise kinect --image-sigma 1 --jpeg --jpeg-quality 90 --overwrite

@@ -20,6 +20,7 @@
 #include "apps/cli/published_sequences.h"
 #include "apps/cli/sequence_arguments.h"
 #include "apps/cli/sequence_run.h"
+#include "apps/cli/usage_error.h"
 #include "msc_vo/results/benchmark.h"
 #include "msc_vo/results/benchmark_json.h"
 #include "msc_vo/results/benchmark_merge.h"
@@ -116,15 +117,15 @@ int Report(const BenchmarkArguments& arguments, const Shard& shard, const Benchm
 int RunPublished(const BenchmarkArguments& arguments) {
   const std::string& path = arguments.sequences.front();
   if (arguments.sequences.size() != 1) {
-    throw std::runtime_error(path + ": a table of the literature is given alone");
+    throw UsageError(path + ": a table of the literature is given alone");
   }
   if (arguments.root.empty()) {
-    throw std::runtime_error(path + ": give the folder of the datasets with --root");
+    throw UsageError(path + ": give the folder of the datasets with --root");
   }
   if (!arguments.modes.empty() || !arguments.shard.empty()) {
-    throw std::runtime_error(path +
-                             ": a table of the literature is run in the mode msc-vo, in one "
-                             "share; leave out --modes and --shard");
+    throw UsageError(path +
+                     ": a table of the literature is run in the mode msc-vo, in one "
+                     "share; leave out --modes and --shard");
   }
   const PublishedTable table = ReadPublishedTable(path);
   BenchmarkPlan plan;
@@ -161,7 +162,7 @@ int RunPublished(const BenchmarkArguments& arguments) {
 int RunBenchmark(const BenchmarkArguments& arguments) {
   if (IsPublishedTable(arguments.sequences)) return RunPublished(arguments);
   if (!arguments.root.empty()) {
-    throw std::runtime_error("--root belongs to a table of the literature (.yaml)");
+    throw UsageError("--root belongs to a table of the literature (.yaml)");
   }
   const std::vector<std::string> modes =
       arguments.modes.empty() ? ImplementedModes() : WithoutRepeats(arguments.modes);

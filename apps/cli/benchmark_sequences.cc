@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "apps/cli/sequence_arguments.h"
+#include "apps/cli/usage_error.h"
 #include "msc_vo/datasets/recording_file.h"
 #include "msc_vo/ros_bag/bag_file.h"
 #include "msc_vo/text/files.h"
@@ -78,7 +79,7 @@ Shard ParseShardArgument(const std::string& text) {
     const int n = count ? WholeNumber(*count).value_or(0) : 0;
     if (k >= 1 && k <= n) return {k, n};
   }
-  throw std::runtime_error("--shard " + text + ": expected K/N with 1 <= K <= N, for instance 2/4");
+  throw UsageError("--shard " + text + ": expected K/N with 1 <= K <= N, for instance 2/4");
 }
 
 std::vector<BenchmarkSequence> ShareOf(const std::vector<BenchmarkSequence>& sequences,

@@ -23,7 +23,7 @@ struct BenchmarkSequence {
 /// names all sequences: those with the same name get a number.
 std::vector<BenchmarkSequence> ListBenchmarkSequences(const std::vector<std::string>& arguments);
 
-/// Parses "K/N" with 1 <= K <= N. Throws std::runtime_error on another text.
+/// Parses "K/N" with 1 <= K <= N. Throws UsageError on another text.
 Shard ParseShardArgument(const std::string& text);
 
 /// The sequences of a share: every N-th, beginning with the K-th.

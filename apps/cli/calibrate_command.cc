@@ -22,6 +22,7 @@
 #include "apps/cli/plot_file.h"
 #include "apps/cli/sequence_arguments.h"
 #include "apps/cli/sequence_run.h"
+#include "apps/cli/usage_error.h"
 #include "msc_vo/config/camera_options.h"
 #include "msc_vo/config/options_file.h"
 #include "msc_vo/text/files.h"
@@ -29,6 +30,10 @@
 namespace msc_vo {
 
 namespace {
+
+// The files that the command has written contain these.
+constexpr char kCameraMark[] = "written by msc_vo calibrate";
+constexpr char kPlotTitle[] = "Calibration from ";
 
 struct CalibrateArguments {
   SequenceArguments layout;
@@ -80,13 +85,14 @@ std::vector<RgbdDecoder> OpenSequences(const CalibrateArguments& arguments,
 
 void CheckOutputs(const CalibrateArguments& arguments, const std::vector<RgbdDecoder>& decoders) {
   if (!arguments.output.empty() && arguments.output == arguments.plot) {
-    throw std::runtime_error(arguments.plot + ": --output and --plot name the same file");
+    throw UsageError(arguments.plot + ": --output and --plot name the same file");
   }
   std::vector<SequenceIndex> sequences;
   for (const RgbdDecoder& decoder : decoders) sequences.push_back(decoder.index());
-  for (const std::string& file : {arguments.output, arguments.plot}) {
-    if (!file.empty()) CheckOutputFile(file, arguments.configuration.InputFiles(), sequences);
-  }
+  const std::vector<std::string> inputs = arguments.configuration.InputFiles();
+  if (!arguments.output.empty()) CheckOutputFile(arguments.output, inputs, sequences, kCameraMark);
+  if (arguments.plot.empty()) return;
+  CheckOutputFile(arguments.plot, inputs, sequences, std::string("<title>") + kPlotTitle);
 }
 
 // Prints the results and writes the files, first the one that counts. Throws std::runtime_error if
@@ -98,12 +104,12 @@ void WriteResults(const CalibrateArguments& arguments, const CalibrationReport& 
     std::cout << FormatCalibrationTable(report) << std::flush;
   }
   if (report.problem.empty() && !arguments.output.empty()) {
-    WriteFile(arguments.output, FormatChangedOptions(CameraConfiguration(report.used),
-                                                     "written by msc_vo calibrate"));
+    WriteFile(arguments.output,
+              FormatChangedOptions(CameraConfiguration(report.used), kCameraMark));
   }
   if (!arguments.plot.empty()) {
     WritePlotFile(arguments.plot,
-                  CalibrationPage(report, "Calibration from " + arguments.sequences.front()));
+                  CalibrationPage(report, kPlotTitle + arguments.sequences.front()));
   }
   if (!report.problem.empty()) throw std::runtime_error(report.problem);
 }
@@ -136,9 +142,10 @@ Command AddCalibrateCommand(CLI::App* app) {
   AddCameraFileArgument(command, &arguments->configuration);
   AddDepthSensorArgument(command, &arguments->configuration);
   AddRunArguments(command, &arguments->run);
-  command->add_option(
-      "--output", arguments->output,
-      "File for the estimated camera, YAML, to be used with --camera-file or --config");
+  command->add_option("--output", arguments->output,
+                      "File for the estimated camera, YAML, to be used with --camera-file or "
+                      "--config; in the folder of a sequence, only that of an earlier "
+                      "calibration is replaced");
   command
       ->add_option("--plot", arguments->plot,
                    "Write plots of the residuals before and after: .html or .svg")

@@ -31,7 +31,7 @@ const std::vector<std::string>& CommandArguments();
 /// A sub-command: the declaration of its arguments and the function that executes it.
 ///
 /// `run` returns an ExitCode. It reports an error by an exception, which main prints as
-/// "msc_vo: error: ..." before it exits with kExitError.
+/// "msc_vo: error: ..." before it exits with kExitError, or with kExitUsage for a UsageError.
 struct Command {
   CLI::App* arguments = nullptr;
   std::function<int()> run;

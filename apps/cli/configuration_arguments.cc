@@ -4,8 +4,8 @@
 #include "apps/cli/configuration_arguments.h"
 
 #include <algorithm>
-#include <stdexcept>
 
+#include "apps/cli/usage_error.h"
 #include "msc_vo/config/camera_options.h"
 #include "msc_vo/config/options_file.h"
 
@@ -30,14 +30,13 @@ void Set(const std::string& path, const std::string& value, Configuration* confi
   const Option* option = FindOption(options, path);
   if (!option) {
     const Option* similar = FindSimilar(options, path);
-    throw std::runtime_error("--set: unknown option '" + path + "'" +
-                             (similar
-                                  ? "; did you mean '" + similar->path + "'?"
-                                  : "; msc_vo replay --print-config --all lists the known ones"));
+    throw UsageError("--set: unknown option '" + path + "'" +
+                     (similar ? "; did you mean '" + similar->path + "'?"
+                              : "; msc_vo replay --print-config --all lists the known ones"));
   }
   std::string expected;
   if (!SetOption(*option, value, &expected)) {
-    throw std::runtime_error("--set: " + path + " must be " + expected + ", not '" + value + "'");
+    throw UsageError("--set: " + path + " must be " + expected + ", not '" + value + "'");
   }
   if (path.rfind("camera.", 0) != 0) return;
   std::string& origin = configuration->camera.origin;
@@ -82,7 +81,7 @@ Configuration MakeConfiguration(const ConfigurationArguments& arguments,
   for (const std::string& setting : arguments.settings) {
     const size_t equals = setting.find('=');
     if (equals == std::string::npos) {
-      throw std::runtime_error("--set: expected NAME=VALUE, not '" + setting + "'");
+      throw UsageError("--set: expected NAME=VALUE, not '" + setting + "'");
     }
     Set(setting.substr(0, equals), setting.substr(equals + 1), &configuration);
   }

@@ -34,7 +34,8 @@ void AddCameraFileArgument(CLI::App* command, ConfigurationArguments* arguments)
 void AddDepthSensorArgument(CLI::App* command, ConfigurationArguments* arguments);
 
 /// Applies the file of options, that of the camera, the depth sensor, then the settings in their
-/// order, to `configuration`. Throws std::runtime_error on an unknown option or an invalid value.
+/// order, to `configuration`. Throws std::runtime_error on an unknown option or an invalid value,
+/// UsageError on one of the settings.
 Configuration MakeConfiguration(const ConfigurationArguments& arguments,
                                 Configuration configuration = {});
 

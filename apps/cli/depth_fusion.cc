@@ -3,6 +3,7 @@
 
 #include "apps/cli/depth_fusion.h"
 
+#include <filesystem>
 #include <stdexcept>
 
 #include <opencv2/imgcodecs.hpp>
@@ -110,6 +111,11 @@ ColoredMesh ExtractSurface(const SurfaceFusion& fusion, const SurfaceFusionOptio
   }
   SortMesh(&mesh);
   return mesh;
+}
+
+std::string CheckPlyFileName(const std::string& path) {
+  if (std::filesystem::path(path).extension() == ".ply") return "";
+  return "a surface is a PLY file, whose name must end in .ply, not " + path;
 }
 
 void AddFusionArguments(CLI::App* command, SurfaceFusionOptions* options) {

@@ -15,6 +15,7 @@
 #include "apps/cli/evaluation_output.h"
 #include "apps/cli/number_range.h"
 #include "apps/cli/plot_file.h"
+#include "apps/cli/usage_error.h"
 #include "msc_vo/datasets/trajectory_format.h"
 #include "msc_vo/evaluation/line_error.h"
 #include "msc_vo/evaluation/segment_error.h"
@@ -22,6 +23,7 @@
 #include "msc_vo/results/error_json.h"
 #include "msc_vo/results/ply_file.h"
 #include "msc_vo/text/files.h"
+#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 
@@ -79,13 +81,9 @@ TrajectoryError Evaluate(const EvaluateArguments& arguments, const Trajectories&
   TrajectoryError error =
       EvaluateTrajectory(trajectories.truth.poses, trajectories.estimate.poses, arguments.options);
   if (!error.usable) {
-    const bool too_few = error.num_matched < 3;
-    const char* hint = !too_few ? ""
-                       : error.num_not_estimated > 0
-                           ? "; --all-poses compares them"
-                           : "; are the time stamps of both in seconds of the same clock?";
+    const std::string remedy = DescribeRemedy(error, "--all-poses");
     throw std::runtime_error(arguments.estimate + " cannot be compared with " + arguments.truth +
-                             ": " + error.message + hint);
+                             ": " + error.message + (remedy.empty() ? "" : "; " + remedy));
   }
   PrintWarnings(error.warnings);
   if (!context.has_stamps) error.rpe_per_second = {};
@@ -95,10 +93,13 @@ TrajectoryError Evaluate(const EvaluateArguments& arguments, const Trajectories&
 int Run(EvaluateArguments arguments) {
   arguments.options.alignment = AlignmentFromString(arguments.alignment);
   arguments.options.rpe_delta.unit = DeltaUnits().at(arguments.delta_unit);
-  std::string problem;
-  if (!arguments.options.IsValid(&problem)) throw std::runtime_error("--delta: " + problem);
+  if (!arguments.options.rpe_delta.IsValid()) {
+    throw UsageError("--delta: must be a whole number of frames, not " +
+                     FormatNumber(arguments.options.rpe_delta.value) +
+                     "; --delta-unit chooses metres or seconds");
+  }
   if (!arguments.lines.empty() && arguments.options.alignment != Alignment::kSe3) {
-    throw std::runtime_error("--lines compares lines after a rigid alignment; leave out --align");
+    throw UsageError("--lines compares lines after a rigid alignment; leave out --align");
   }
   RefuseToOverwrite({arguments.truth, arguments.estimate, arguments.lines, arguments.edges},
                     arguments.plot);

@@ -3,12 +3,12 @@
 
 #include <iostream>
 #include <memory>
-#include <stdexcept>
 #include <string>
 
 #include "apps/cli/commands.h"
 #include "apps/cli/number_range.h"
 #include "apps/cli/run_export.h"
+#include "apps/cli/usage_error.h"
 
 namespace msc_vo {
 
@@ -18,8 +18,8 @@ namespace {
 void CheckOptions(const CLI::App& command, const RunExport& arguments) {
   const auto refuse_but_for = [&](const char* option, bool has_effect) {
     if (command.get_option(option)->count() == 0 || has_effect) return;
-    throw std::runtime_error(std::string(option) + " has no effect on the format " +
-                             arguments.format + "; leave it out");
+    throw UsageError(std::string(option) + " has no effect on the format " + arguments.format +
+                     "; leave it out");
   };
   const bool is_map = IsMapFormat(arguments.format);
   refuse_but_for("--every", !is_map);
@@ -27,6 +27,8 @@ void CheckOptions(const CLI::App& command, const RunExport& arguments) {
   refuse_but_for("--binary", arguments.format == "colmap");
   refuse_but_for("--images", arguments.format == "mcap");
   refuse_but_for("--map", arguments.format == "mcap");
+  const std::string problem = CheckPlyFileName(arguments.output);
+  if (arguments.format == "ply" && !problem.empty()) throw UsageError("output: " + problem);
   for (const char* option : {"--voxel", "--max-depth", "--min-observations", "--max-memory"}) {
     refuse_but_for(option, arguments.format == "ply");
   }

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "apps/cli/output_file.h"
 #include "msc_vo/datasets/image_container.h"
 #include "msc_vo/exports/recorded_run.h"
 #include "msc_vo/results/sequence_identity.h"
@@ -30,7 +31,7 @@ void RefuseToOverwriteImages(const SequenceIndex& index, const RunExport& argume
   if (arguments.format == "colmap") {
     RefuseToOverwrite(InputFolders(index), arguments.output);
   } else {
-    RefuseToOverwriteSequence(index, arguments.output);
+    RefuseToReplaceInSequence(index, arguments.output, ExportMark(arguments.format));
   }
 }
 

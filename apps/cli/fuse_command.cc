@@ -74,7 +74,7 @@ int Run(const FuseArguments& arguments) {
   CheckInput(decoder);
   std::vector<std::string> inputs = arguments.configuration.InputFiles();
   inputs.insert(inputs.end(), {arguments.trajectory, arguments.report});
-  CheckOutputFile(arguments.output, inputs, {decoder.index()});
+  CheckOutputFile(arguments.output, inputs, {decoder.index()}, kSurfaceMark);
   const std::string page = ReadReport(arguments.report);
   const std::vector<PosedImage> images =
       FindPosedImages(arguments.trajectory, arguments.poses, decoder);
@@ -104,7 +104,12 @@ Command AddFuseCommand(CLI::App* app) {
           "trajectory", arguments->trajectory,
           "Poses of the images: trajectory.txt of a run, or a ground truth on their stamps")
       ->required();
-  command->add_option("--output", arguments->output, "PLY file for the surface")->required();
+  command
+      ->add_option("--output", arguments->output,
+                   "PLY file for the surface; in the folder of the sequence, only the surface of "
+                   "an earlier run is replaced")
+      ->check(CheckPlyFileName)
+      ->required();
   CLI::Option* const points =
       command->add_flag("--points", arguments->points, "Write points instead of triangles");
   command

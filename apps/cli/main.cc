@@ -17,6 +17,7 @@
 #include "apps/cli/command_log.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/standard_streams.h"
+#include "apps/cli/usage_error.h"
 #include "msc_vo/text/similar_name.h"
 #include "msc_vo/version.h"
 
@@ -120,6 +121,9 @@ int main(int argc, char** argv) {
     const int exit_code = msc_vo::Main(argc, argv);
     msc_vo::FinishStandardOutput();
     return exit_code;
+  } catch (const msc_vo::UsageError& error) {
+    msc_vo::PrintError(error.what());
+    return msc_vo::kExitUsage;
   } catch (const std::exception& error) {
     msc_vo::PrintError(error.what());
     return msc_vo::kExitError;

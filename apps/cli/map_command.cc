@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "apps/cli/commands.h"
+#include "apps/cli/export_folder.h"
 #include "apps/cli/map_input.h"
-#include "apps/cli/output_file.h"
 #include "msc_vo/exports/map_export.h"
 #include "msc_vo/map_file/map_images.h"
 #include "msc_vo/map_file/map_reader.h"
@@ -62,65 +62,6 @@ void PrintInfo(const std::string& file) {
 // Subfolder of an export for the images of keyframes. No dataset format uses this name.
 constexpr const char* kImageFolder = "keyframe_images";
 
-// Whether a text is `prefix` and digits.
-bool IsNumbered(const std::string& text, const std::string& prefix) {
-  return text.size() > prefix.size() && text.rfind(prefix, 0) == 0 &&
-         text.find_first_not_of("0123456789", prefix.size()) == std::string::npos;
-}
-
-bool IsSubMapFolder(const fs::path& path) {
-  return IsNumbered(path.filename().string(), "submap_");
-}
-
-// Whether a file in the folder of a submap has the name of one that ExportMap() writes.
-bool IsExportedFile(const fs::path& path) {
-  for (const char* name : {"points.ply", "lines.ply", "planes.ply", "graph.g2o"}) {
-    if (path.filename() == name) return true;
-  }
-  return path.extension() == ".txt" && IsNumbered(path.stem().string(), "keyframes_");
-}
-
-// Whether a file has the name of an exported image: six digits or more.
-bool IsExportedImage(const fs::path& path) {
-  return path.extension() == ".jpg" && path.stem().string().size() >= 6 &&
-         IsNumbered(path.stem().string(), "");
-}
-
-// Removes the files of a folder that an earlier export has written, and the folder if it is empty
-// then.
-void RemoveExported(const fs::path& folder, bool (*is_exported)(const fs::path&)) {
-  std::vector<fs::path> files;
-  std::error_code ignored;  // of a folder that does not exist
-  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-    if (is_exported(entry.path()) && !entry.is_directory(ignored)) files.push_back(entry.path());
-  }
-  for (const fs::path& file : files) fs::remove(file);
-  if (fs::is_symlink(folder, ignored) || !fs::is_empty(folder, ignored)) return;
-  fs::remove(folder, ignored);
-}
-
-// Removes what an earlier export has written, possibly of a map with more submaps and sessions.
-void RemoveEarlierExport(const std::string& folder) {
-  std::vector<fs::path> submaps;
-  std::error_code is_missing;
-  for (const auto& entry : fs::directory_iterator(folder, is_missing)) {
-    if (IsSubMapFolder(entry.path()) && !entry.is_symlink()) submaps.push_back(entry.path());
-  }
-  for (const fs::path& submap : submaps) RemoveExported(submap, &IsExportedFile);
-  RemoveExported(fs::path(folder) / kImageFolder, &IsExportedImage);
-}
-
-// Throws std::runtime_error if the map is among the files that an export replaces.
-void RefuseToReplace(const std::string& map, const std::string& folder) {
-  const fs::path file = fs::canonical(map);
-  const fs::path parent = file.parent_path();
-  const bool is_replaced = (IsSubMapFolder(parent) && IsExportedFile(file)) ||
-                           (parent.filename() == kImageFolder && IsExportedImage(file));
-  if (!is_replaced || !AreSameFile(parent.parent_path().string(), folder)) return;
-  throw std::runtime_error(map + ": is in " + folder +
-                           ", where the export would replace it; give another folder");
-}
-
 // Writes the images of the keyframes, named by their ids.
 void ExportImages(const std::string& file, const std::string& folder) {
   const fs::path path = fs::path(folder) / kImageFolder;
@@ -137,10 +78,10 @@ void ExportImages(const std::string& file, const std::string& folder) {
 void Export(const std::string& file, const std::string& folder) {
   const MapContents contents = LoadKeyframes(file);
   RefuseToOverwrite({file}, folder);
-  RefuseToReplace(file, folder);
-  RemoveEarlierExport(folder);
-  ExportMap(contents, folder);
-  ExportImages(file, folder);
+  ReplaceExport(folder, file, [&](const std::string& unfinished) {
+    ExportMap(contents, unfinished);
+    ExportImages(file, unfinished);
+  });
 }
 
 void PrintMerge(const std::string& file, const MapMerge& merge) {

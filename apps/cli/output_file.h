@@ -13,10 +13,17 @@ namespace msc_vo {
 /// Whether two names are those of the same file, which need not exist yet. Links are followed.
 bool AreSameFile(const std::string& a, const std::string& b);
 
+/// Throws std::runtime_error if writing `file` would destroy a part of a sequence, or any other
+/// file in its folder that is no earlier result of the same kind. Such a result has `mark` in its
+/// first kilobyte. Without a mark, earlier results cannot be recognised, and only parts of the
+/// sequence are protected.
+void RefuseToReplaceInSequence(const SequenceIndex& sequence, const std::string& file,
+                               const std::string& mark);
+
 /// Tests before long work that its result can be written to `file`. Throws std::runtime_error if it
-/// would be written over one of `inputs` (names may be empty) or a part of one of `sequences`, or
-/// if it cannot be written.
+/// would be written over one of `inputs` (names may be empty), as RefuseToReplaceInSequence() for
+/// each of `sequences`, or if it cannot be written.
 void CheckOutputFile(const std::string& file, const std::vector<std::string>& inputs,
-                     const std::vector<SequenceIndex>& sequences);
+                     const std::vector<SequenceIndex>& sequences, const std::string& mark);
 
 }  // namespace msc_vo

@@ -22,6 +22,7 @@
 #include "apps/cli/run_identity.h"
 #include "apps/cli/run_paths.h"
 #include "apps/cli/sequence_run.h"
+#include "apps/cli/usage_error.h"
 #include "msc_vo/checkpoint/checkpoint_file.h"
 #include "msc_vo/config/options_file.h"
 #include "msc_vo/logging/logger.h"
@@ -68,7 +69,7 @@ void PrintConfiguration(const ReplayArguments& arguments, const ConfigurationArg
     return;
   }
   if (!settings.IsEmpty()) {
-    throw std::runtime_error(
+    throw UsageError(
         "--markdown describes the defaults; leave out --config, --set and their short forms");
   }
   std::cout << FormatOptionsMarkdown(selection);
@@ -308,7 +309,7 @@ int Replay(const ReplayArguments& given) {
     return kExitSuccess;
   }
   if (resumed && configuration.odometry.snapshots.realtime) {
-    throw std::runtime_error("--resume: a run in real time cannot be continued; start a new one");
+    throw UsageError("--resume: a run in real time cannot be continued; start a new one");
   }
   std::vector<RunExport> exports;
   const int exit_code = Run(arguments, configuration, resumed ? &*resumed : nullptr, &exports);

@@ -26,7 +26,9 @@ void CheckBeforeRun(const RunExport& one, const ReplayArguments& arguments,
   CheckExport(one, sequence);
   std::vector<std::string> inputs = arguments.configuration.InputFiles();
   inputs.insert(inputs.end(), {one.map, arguments.map.localize});
-  if (one.format != "colmap") return CheckOutputFile(one.output, inputs, {sequence.index()});
+  if (one.format != "colmap") {
+    return CheckOutputFile(one.output, inputs, {sequence.index()}, ExportMark(one.format));
+  }
   RefuseToOverwrite(InputFolders(sequence.index()), one.output);
   MakeFolder(one.output);
 }
@@ -39,7 +41,10 @@ std::string CheckExportText(const std::string& text) {
     return "'" + text + "' must be FORMAT=PATH, for instance tum=poses.txt";
   }
   const std::vector<std::string>& formats = ExportFormats();
-  if (std::find(formats.begin(), formats.end(), FormatOf(text)) != formats.end()) return "";
+  const std::string path = text.substr(equals + 1);
+  if (std::find(formats.begin(), formats.end(), FormatOf(text)) != formats.end()) {
+    return FormatOf(text) == "ply" ? CheckPlyFileName(path) : "";
+  }
   std::string names;
   for (const std::string& name : formats) names += (names.empty() ? "" : ", ") + name;
   return "'" + FormatOf(text) + "' is no format; formats: " + names;

@@ -12,6 +12,7 @@
 #include "apps/cli/commands.h"
 #include "apps/cli/image_feed.h"
 #include "apps/cli/sequence_arguments.h"
+#include "apps/cli/usage_error.h"
 #include "msc_vo/logging/logger.h"
 #include "msc_vo/report/live_page.h"
 #include "msc_vo/results/report_frame.h"
@@ -82,9 +83,9 @@ std::optional<int> ViewPort(const ViewArguments& arguments) {
   const std::optional<double> number = ParseNumber(arguments.port);
   const std::optional<int> port = number ? WholeNumber(*number) : std::nullopt;
   if (!port || *port < 0 || *port > kMaxPort) {
-    throw std::runtime_error("--view: " + arguments.port +
-                             " is not a port (0 to 65535); put --view behind the sequence, or give "
-                             "the port");
+    throw UsageError("--view: " + arguments.port +
+                     " is not a port (0 to 65535); put --view behind the sequence, or give "
+                     "the port");
   }
   return port;
 }

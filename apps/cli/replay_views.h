@@ -31,8 +31,8 @@ struct ViewArguments {
 /// Declares --view, --view-address and --overlay.
 void AddViewArguments(CLI::App* command, ViewArguments* arguments);
 
-/// The port of --view, nullopt without it. Throws std::runtime_error if it is no port, or this
-/// program has no live view.
+/// The port of --view, nullopt without it. Throws UsageError if it is no port, std::runtime_error
+/// if this program has no live view.
 std::optional<int> ViewPort(const ViewArguments& arguments);
 
 /// Everything that shows the frames of a replay: views for the report, the live page, the video.

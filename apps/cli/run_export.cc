@@ -203,6 +203,8 @@ const std::vector<std::string>& ExportFormats() {
 
 bool IsMapFormat(const std::string& format) { return format == "colmap" || format == "g2o"; }
 
+std::string ExportMark(const std::string& format) { return format == "ply" ? kSurfaceMark : ""; }
+
 void CheckExport(const RunExport& arguments, const RgbdDecoder& sequence) {
   const bool needs_images = arguments.format == "nerfstudio" || arguments.format == "ply";
   if (needs_images && sequence.index().camera) {

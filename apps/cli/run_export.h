@@ -36,6 +36,10 @@ const std::vector<std::string>& ExportFormats();
 /// Whether a format is made of a map file: colmap and g2o.
 bool IsMapFormat(const std::string& format);
 
+/// Text at the beginning of the exports of a format, see RefuseToReplaceInSequence(). Empty if
+/// other programs write the same.
+std::string ExportMark(const std::string& format);
+
 /// Throws std::runtime_error that names the fix if a format cannot be made of a sequence, or not by
 /// this build.
 void CheckExport(const RunExport& arguments, const RgbdDecoder& sequence);

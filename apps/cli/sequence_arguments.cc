@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "apps/cli/modules.h"
+#include "apps/cli/usage_error.h"
 #include "msc_vo/datasets/camera_preset.h"
 #include "msc_vo/datasets/clipped_depth_search.h"
 #include "msc_vo/datasets/image_masks.h"
@@ -35,8 +36,8 @@ SequenceIndex OpenSource(const SequenceArguments& arguments) {
   const std::string& source = arguments.directory;
   const bool is_bag = IsBag(source);
   if (!is_bag && (!arguments.topics.color.empty() || !arguments.topics.depth.empty())) {
-    throw std::runtime_error(
-        source + ": --color-topic and --depth-topic are for ROS bags (.bag, .db3, .mcap)");
+    throw UsageError(source +
+                     ": --color-topic and --depth-topic are for ROS bags (.bag, .db3, .mcap)");
   }
   if (IsLiveCamera(source)) return OpenOpenNiCamera(source.substr(sizeof(kCameraPrefix) - 1));
   if (is_bag) return OpenBag(source, arguments.topics);

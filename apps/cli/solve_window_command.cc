@@ -10,6 +10,7 @@
 
 #include "apps/cli/commands.h"
 #include "apps/cli/configuration_arguments.h"
+#include "apps/cli/usage_error.h"
 #include "msc_vo/recording/window_file.h"
 #include "msc_vo/recording/window_json.h"
 #include "msc_vo/text/files.h"
@@ -32,9 +33,8 @@ BundleAdjustmentOptions Options(const BundleAdjustmentOptions& recorded,
                                 const ConfigurationArguments& arguments) {
   for (const std::string& setting : arguments.settings) {
     if (setting.rfind("mapping.window.", 0) != 0) {
-      throw std::runtime_error(
-          "--set: '" + setting +
-          "' is not an option of local bundle adjustment; those are mapping.window.*");
+      throw UsageError("--set: '" + setting +
+                       "' is not an option of local bundle adjustment; those are mapping.window.*");
     }
   }
   Configuration configuration;

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "apps/cli/number_range.h"
+#include "apps/cli/usage_error.h"
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/text/text_file.h"
 
@@ -253,7 +254,8 @@ void AddOutputArguments(CLI::App* command, SynthesizeArguments* arguments) {
   command->add_flag("--json", arguments->json, "Print what was written as JSON");
   command->add_flag(
       "--overwrite", arguments->overwrite,
-      "Write into a folder that synthesize did not create; replaces its rgb/ and depth/");
+      "Write into a folder that holds other files or a sequence of other options; of the images "
+      "there, only those of an earlier synthesize are removed");
 }
 
 }  // namespace
@@ -275,21 +277,20 @@ SyntheticSequenceOptions SequenceOptions(const SynthesizeArguments& arguments) {
   options.depth = *SyntheticDepthFromName(arguments.depth_sensor);
   if (arguments.depth_bias >= 0.0) {
     if (options.depth != SyntheticDepth::kTimeOfFlight) {
-      throw std::runtime_error(
-          "--depth-bias is an error of time of flight: give --depth-sensor tof");
+      throw UsageError("--depth-bias is an error of time of flight: give --depth-sensor tof");
     }
     options.time_of_flight.bias = arguments.depth_bias;
   }
   if (!arguments.depth_offset.empty()) {
     if (options.depth != SyntheticDepth::kIclNuim) {
-      throw std::runtime_error(
+      throw UsageError(
           "--depth-offset displaces the depth of ICL-NUIM's noise: give --depth-sensor icl-nuim");
     }
     options.icl_nuim.lateral_offset = {arguments.depth_offset[0], arguments.depth_offset[1]};
   }
   options.specular = SpecularSurfaces(arguments);
   if (options.specular.Any() && options.scene != SceneKind::kRoom) {
-    throw std::runtime_error("--specular needs the scene room: give --scene room");
+    throw UsageError("--specular needs the scene room: give --scene room");
   }
   if (arguments.light > 0.0) options.photon_noise.emplace().light = arguments.light;
   if (arguments.hunting_exposure) options.hunting_exposure.emplace();
@@ -297,12 +298,12 @@ SyntheticSequenceOptions SequenceOptions(const SynthesizeArguments& arguments) {
   options.lens = ParseLens(arguments.lens);
   if (arguments.turn_rate > 0.0) options.path.turn_rate = DegreesToRadians(arguments.turn_rate);
   if (options.walk.returns && !SupportsReturns(options.scene)) {
-    throw std::runtime_error(
+    throw UsageError(
         "--returns needs a scene with places that look alike: give --scene "
         "rooms, mirrored, floors or desks");
   }
   std::string error;
-  if (!options.IsValid(&error)) throw std::runtime_error(error);
+  if (!options.IsValid(&error)) throw UsageError(error);
   return options;
 }
 

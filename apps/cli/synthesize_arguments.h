@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -34,13 +35,14 @@ struct SynthesizeArguments {
   bool untold = false;                        ///< rig and lens are not in camera.txt
   double focal_length_error = 0.0;            ///< of camera.txt, per cent
   std::vector<double> principal_point_error;  ///< of camera.txt, pixels; empty: none
+  std::map<std::string, std::string> values;  ///< of the options that change files, by name
   SyntheticSequenceOptions options;           ///< as far as an option sets it directly
 };
 
 /// Declares the arguments of `command`.
 void AddSynthesizeArguments(CLI::App* command, SynthesizeArguments* arguments);
 
-/// Returns the sequence that the arguments describe. Throws std::runtime_error if it is impossible.
+/// Returns the sequence that the arguments describe. Throws UsageError if it is impossible.
 SyntheticSequenceOptions SequenceOptions(const SynthesizeArguments& arguments);
 
 }  // namespace msc_vo

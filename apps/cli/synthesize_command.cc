@@ -3,8 +3,8 @@
 
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -14,6 +14,7 @@
 #include "apps/cli/interrupt_guard.h"
 #include "apps/cli/progress.h"
 #include "apps/cli/synthesize_arguments.h"
+#include "apps/cli/synthesized_folder.h"
 #include "apps/cli/synthetic_truth.h"
 #include "msc_vo/datasets/camera_file.h"
 #include "msc_vo/results/ply_file.h"
@@ -26,26 +27,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A line of camera.txt that identifies folders written by this command.
-constexpr char kMark[] = "written by msc_vo synthesize";
-
-bool IsOurs(const fs::path& folder) {
-  const std::string camera = (folder / "camera.txt").string();
-  return FileProblem(camera).empty() && ReadFile(camera).find(kMark) != std::string::npos;
-}
-
-// Creates OUT_DIR with empty rgb/ and depth/. Other files in an existing folder are kept.
-void PrepareFolder(const fs::path& folder, bool overwrite) {
-  const std::string name = folder.string();
-  if (HasEntry(name) && !ListFolder(name).empty() && !IsOurs(folder) && !overwrite) {
-    throw std::runtime_error(name +
-                             " is not empty and was not written by msc_vo synthesize: give another "
-                             "folder, or use --overwrite");
+// The options that were given, and the defaults of the others, by name.
+std::map<std::string, std::string> ValuesOf(const std::vector<CLI::Option*>& options) {
+  std::map<std::string, std::string> values;
+  for (const CLI::Option* option : options) {
+    if (option->get_lnames().empty()) continue;
+    const std::string& name = option->get_lnames().front();
+    const std::string value =
+        option->count() > 0 ? CLI::detail::join(option->results(), ",") : option->get_default_str();
+    const bool changes_files = name != "help" && name != "json" && name != "overwrite";
+    if (changes_files && !value.empty()) values[name] = value;
   }
-  for (const char* images : {"rgb", "depth"}) {
-    fs::remove_all(folder / images);
-    MakeFolder((folder / images).string());
-  }
+  return values;
 }
 
 std::string PoseLine(const std::string& stamp, const Rigid3& world_from_cam) {
@@ -96,8 +89,8 @@ int Run(const SynthesizeArguments& arguments) {
   const Calibration given = GivenCalibration(arguments, true_calibration);
 
   const fs::path folder = arguments.folder;
-  PrepareFolder(folder, arguments.overwrite);
-  WriteFile((folder / "camera.txt").string(), FormatCameraFile(given, kMark));
+  PrepareSequenceFolder(folder, arguments.values, arguments.overwrite);
+  WriteFile((folder / "camera.txt").string(), FormatCameraFile(given, kSynthesizedMark));
   WriteFile((folder / "truth.json").string(),
             FormatTruthJson(arguments, options, true_calibration, given));
   WriteAccelerometer(folder, sequence.AccelerometerReadings(num_frames));
@@ -140,8 +133,12 @@ Command AddSynthesizeCommand(CLI::App* app) {
                                           "groundtruth.txt, truth.json (the true camera), "
                                           "accelerometer.txt and edges.ply, the true edges");
   AddSynthesizeArguments(command, arguments.get());
+  const std::vector<CLI::Option*> options = command->get_options();
   command->footer(HelpFooter("msc_vo synthesize room --scene room --frames 260 --noise kinect"));
-  return {command, [arguments] { return Run(*arguments); }};
+  return {command, [arguments, options] {
+            arguments->values = ValuesOf(options);
+            return Run(*arguments);
+          }};
 }
 
 }  // namespace msc_vo

@@ -3,7 +3,8 @@
 
 #include "apps/cli/synthetic_truth.h"
 
-#include <stdexcept>
+#include "apps/cli/synthesized_folder.h"
+#include "apps/cli/usage_error.h"
 
 namespace msc_vo {
 
@@ -59,7 +60,7 @@ Calibration GivenCalibration(const SynthesizeArguments& arguments, const Calibra
   given.SetUndistorted();
   std::string error;
   if (!given.IsValid(&error)) {
-    throw std::runtime_error("the errors of camera.txt are too large: " + error);
+    throw UsageError("the errors of camera.txt are too large: " + error);
   }
   return given;
 }
@@ -96,7 +97,8 @@ std::string FormatTruthJson(const SynthesizeArguments& arguments,
                      {"image_sigma", options.image_sigma},
                      {"light", options.photon_noise ? Json(options.photon_noise->light) : Json()},
                      {"hunting_exposure", options.hunting_exposure.has_value()},
-                     {"motion_blur", options.motion_blur}};
+                     {"motion_blur", options.motion_blur},
+                     {kSynthesizedOptions, arguments.values}};
   return json.dump(2) + "\n";
 }
 

@@ -17,14 +17,15 @@ namespace msc_vo {
 Calibration TrueCalibration(const SyntheticSequenceOptions& options,
                             const SyntheticSequence& sequence);
 
-/// What camera.txt says instead of `truth`. Throws std::runtime_error if that is no camera.
+/// What camera.txt says instead of `truth`. Throws UsageError if that is no camera.
 Calibration GivenCalibration(const SynthesizeArguments& arguments, const Calibration& truth);
 
 /// Intrinsics and lens of the recorded images, and the rest of a calibration. `depth_camera` and
 /// `readout_time` are null if there is none.
 nlohmann::ordered_json CalibrationToJson(const Calibration& calibration);
 
-/// Text of truth.json: the true calibration, what camera.txt says, and the errors of the images.
+/// Text of truth.json: the true calibration, what camera.txt says, the errors of the images, and
+/// the options of the command.
 std::string FormatTruthJson(const SynthesizeArguments& arguments,
                             const SyntheticSequenceOptions& options, const Calibration& truth,
                             const Calibration& given);

@@ -26,7 +26,8 @@ constexpr int kBlockResolution = 8;      // voxels per edge of a block
 constexpr float kTruncation = 4.0f;      // voxels
 constexpr double kBytesPerVoxel = 12.0;  // distance, weight, three colours
 constexpr int64_t kInitialBlocks = 4096;
-constexpr double kCellGrowth = 1.25;  // from one try of Simplify() to the next
+constexpr int32_t kFarBlock = 1 << 24;  // beyond what `float` coordinates of voxels resolve
+constexpr double kCellGrowth = 1.25;    // from one try of Simplify() to the next
 
 const o3c::Device kCpu("CPU:0");
 
@@ -34,9 +35,11 @@ o3c::Tensor TensorOf(const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic>
   return o3c::eigen_converter::EigenMatrixToTensor(matrix);
 }
 
-o3c::Tensor Intrinsics(const PinholeCamera& camera) {
+// `pixel_center`: coordinates of the centre of the first pixel, which are 0 in `camera`.
+o3c::Tensor Intrinsics(const PinholeCamera& camera, double pixel_center) {
   Eigen::Matrix3d matrix;
-  matrix << camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0;
+  matrix << camera.fx, 0.0, camera.cx + pixel_center, 0.0, camera.fy, camera.cy + pixel_center, 0.0,
+      0.0, 1.0;
   return TensorOf(matrix);
 }
 
@@ -116,7 +119,8 @@ class Open3dFusion : public SurfaceFusion {
  public:
   explicit Open3dFusion(const SurfaceFusionOptions& options)
       : options_(options),
-        intrinsics_(Intrinsics(options.camera)),
+        touch_intrinsics_(Intrinsics(options.camera, 0.0)),
+        integration_intrinsics_(Intrinsics(options.camera, 0.5)),
         grid_({"tsdf", "weight", "color"}, {o3c::Float32, o3c::UInt16, o3c::UInt16},
               {{1}, {1}, {3}}, static_cast<float>(options.voxel_size), kBlockResolution,
               kInitialBlocks, kCpu) {
@@ -131,8 +135,8 @@ class Open3dFusion : public SurfaceFusion {
     const float max_depth = static_cast<float>(options_.max_depth);
     const o3c::Tensor blocks = BlocksNear(depth_image, extrinsics);
     if (blocks.NumElements() == 0) return;
-    grid_.Integrate(blocks, depth_image, ImageOf<float>(color), intrinsics_, extrinsics, 1.0f,
-                    max_depth, kTruncation);
+    grid_.Integrate(blocks, depth_image, ImageOf<float>(color), integration_intrinsics_, extrinsics,
+                    1.0f, max_depth, kTruncation);
     is_empty_ = false;
     CheckMemory();
   }
@@ -141,7 +145,9 @@ class Open3dFusion : public SurfaceFusion {
     ColoredMesh mesh;
     if (is_empty_) return mesh;
     o3g::VoxelBlockGrid grid = grid_;  // shares the voxels; Open3D's extraction is not const
-    const float min_weight = static_cast<float>(options_.min_observations);
+    VacateFirstBlock(grid.GetHashMap());
+    // Voxels of a larger weight are used; an observation weighs 1.
+    const auto min_weight = static_cast<float>(options_.min_observations - 1);
     if (with_triangles) {
       const o3g::TriangleMesh surface = grid.ExtractTriangleMesh(min_weight);
       CopyVertices(surface.GetVertexPositions(), surface.GetVertexColors(), &mesh);
@@ -172,11 +178,37 @@ class Open3dFusion : public SurfaceFusion {
   // error.
   o3c::Tensor BlocksNear(const o3g::Image& depth, const o3c::Tensor& extrinsics) {
     try {
-      return grid_.GetUniqueBlockCoordinates(depth, intrinsics_, extrinsics, 1.0f,
+      return grid_.GetUniqueBlockCoordinates(depth, touch_intrinsics_, extrinsics, 1.0f,
                                              static_cast<float>(options_.max_depth), kTruncation);
     } catch (const std::runtime_error& error) {
       if (std::string(error.what()).find("No block is touched") == std::string::npos) throw;
       return {};
+    }
+  }
+
+  // Moves the block at index 0 to another index, and an empty one to its place, far from all
+  // others. Open3D takes the voxel with index 0 for a missing one when it extracts triangles, and
+  // ends the program if the surface passes beside it. Throws std::runtime_error if the table does
+  // not give the index that has become free last.
+  static void VacateFirstBlock(o3c::HashMap blocks) {
+    if (blocks.Size() == blocks.GetCapacity()) blocks.Reserve(blocks.Size() + 1);
+    const o3c::Tensor far = o3c::Tensor::Full({1, 3}, kFarBlock, o3c::Int32, kCpu);
+    const o3c::Tensor key = blocks.GetKeyTensor().Slice(0, 0, 1).Clone();
+    if (key.AllEqual(far)) return;
+    std::vector<o3c::Tensor> values;
+    for (const o3c::Tensor& all : blocks.GetValueTensors()) {
+      values.push_back(all.Slice(0, 0, 1).Clone());
+    }
+    blocks.Erase(key);
+    const auto activate = [&blocks](const o3c::Tensor& block) {
+      return blocks.Activate(block).first[0].Item<int32_t>();
+    };
+    if (activate(far) != 0) throw std::runtime_error("Open3D: the first block cannot be moved");
+    const int64_t moved = activate(key);
+    for (size_t i = 0; i < values.size(); ++i) {
+      o3c::Tensor all = blocks.GetValueTensor(i);
+      all.Slice(0, moved, moved + 1).AsRvalue() = values[i];
+      all.Slice(0, 0, 1).Fill(0);
     }
   }
 
@@ -192,7 +224,11 @@ class Open3dFusion : public SurfaceFusion {
   }
 
   SurfaceFusionOptions options_;
-  o3c::Tensor intrinsics_;
+  // Open3D finds blocks by back-projecting the indices of pixels, whose centres are integers here,
+  // but integrates the pixel whose index is the projection of a voxel, rounded down: its centre is
+  // at one half. Both colour and depth are taken from that pixel.
+  o3c::Tensor touch_intrinsics_;
+  o3c::Tensor integration_intrinsics_;
   o3g::VoxelBlockGrid grid_;
   bool is_empty_ = true;
 };

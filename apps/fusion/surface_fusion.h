@@ -18,7 +18,7 @@ struct SurfaceFusionOptions {
   PinholeCamera camera;
   double voxel_size = 0.01;        ///< metres
   double max_depth = 4.0;          ///< metres; measurements beyond it are ignored
-  int min_observations = 2;        ///< of a voxel of the surface
+  int min_observations = 3;        ///< of a voxel of the surface
   double max_memory_mib = 2048.0;  ///< of the voxels
 };
 

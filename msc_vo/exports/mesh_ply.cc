@@ -16,10 +16,10 @@ namespace {
 
 std::string Header(const ColoredMesh& mesh) {
   std::string text = FormatText(
-      "ply\nformat binary_little_endian 1.0\ncomment msc_vo surface, metres\nelement vertex %zu\n"
+      "ply\nformat binary_little_endian 1.0\n%s\nelement vertex %zu\n"
       "property float x\nproperty float y\nproperty float z\n"
       "%sproperty uchar red\nproperty uchar green\nproperty uchar blue\n",
-      mesh.positions.size(),
+      kSurfaceMark, mesh.positions.size(),
       mesh.normals.empty() ? "" : "property float nx\nproperty float ny\nproperty float nz\n");
   if (!mesh.triangles.empty()) {
     text += FormatText("element face %zu\nproperty list uchar int vertex_indices\n",

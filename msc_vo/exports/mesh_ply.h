@@ -9,6 +9,9 @@
 
 namespace msc_vo {
 
+/// A line in the header of the files of FormatMeshPly().
+inline constexpr char kSurfaceMark[] = "comment msc_vo surface, metres";
+
 /// Formats a mesh as binary little-endian PLY: x y z (float), nx ny nz (float) if it has normals,
 /// red green blue (uchar), and faces as lists of vertex_indices, unless there are no triangles.
 /// Throws std::invalid_argument unless there is one colour per vertex, and one normal or none.

@@ -144,7 +144,7 @@ TEST_F(BenchmarkCommandTest, RunsAllModesByDefaultAndRejectsInvalidOptions) {
   EXPECT_THAT(Numbers()["modes"], ElementsAre("pl-vo", "pl-vo-depth", "msc-vo"));
   const CommandOutcome wrong = RunCommand({"benchmark", Path("room"), "--output", Path("no"),
                                            "--set", "use_points=0x", "--modes", "pl-vo"});
-  EXPECT_EQ(wrong.exit_code, 1);
+  EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_THAT(wrong.output, LineNames("error:", "--set", "use_points", "'0x'"));
   const CommandOutcome blind =
       RunCommand({"benchmark", Path("room"), "--output", Path("no"), "--set", "use_points=false",
@@ -253,8 +253,9 @@ TEST_F(BenchmarkSharesTest, RefusesOtherSettingsAndWrongArguments) {
   EXPECT_THAT(Merge({Path("out"), Path("other")}).output,
               LineNames("error:", Path("out"), Path("other"), "--max-frames", "4", "5"));
   EXPECT_THAT(Merge({Path("a")}).output, LineNames("error:", Path("a"), "benchmark*.json"));
-  EXPECT_THAT(Benchmark("out", {"--shard", "3/2"}).output,
-              LineNames("error:", "--shard", "3/2", "K/N"));
+  const CommandOutcome shard = Benchmark("out", {"--shard", "3/2"});
+  EXPECT_EQ(shard.exit_code, 2);
+  EXPECT_THAT(shard.output, LineNames("error:", "--shard", "3/2", "K/N"));
   EXPECT_EQ(RunCommand({"benchmark"}).exit_code, 2);
   EXPECT_EQ(RunCommand({"benchmark", Path("a"), "--merge", Path("out")}).exit_code, 2);
 }
@@ -290,12 +291,12 @@ TEST_F(BenchmarkCommandTest, ComparesWithTheLiterature) {
 
 TEST_F(BenchmarkCommandTest, SaysWhatIsWrongWithATable) {
   const std::string table = std::string(MSC_VO_DATA_FOLDER) + "/benchmarks/msc_vo_paper.yaml";
-  const auto output = [](const std::vector<std::string>& arguments) {
+  const auto output = [](const std::vector<std::string>& arguments, int exit_code = 1) {
     const CommandOutcome outcome = RunCommand(arguments);
-    EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
+    EXPECT_EQ(outcome.exit_code, exit_code) << outcome.output;
     return outcome.output;
   };
-  EXPECT_THAT(output({"benchmark", table}), Names("msc_vo_paper.yaml", "--root"));
+  EXPECT_THAT(output({"benchmark", table}, 2), Names("msc_vo_paper.yaml", "--root"));
   EXPECT_THAT(output({"benchmark", table, "--root", Path("none")}), Names("none"));
   std::filesystem::create_directories(Path("empty"));
   EXPECT_THAT(output({"benchmark", table, "--root", Path("empty"), "--output", Path("out")}),
@@ -303,7 +304,7 @@ TEST_F(BenchmarkCommandTest, SaysWhatIsWrongWithATable) {
   WriteText("bad.yaml", "title: x\ndatasets: 3\n");
   EXPECT_THAT(output({"benchmark", Path("bad.yaml"), "--root", Path("empty")}),
               Names("bad.yaml:2", "datasets"));
-  EXPECT_THAT(output({"benchmark", table, "--root", Path("empty"), "--modes", "pl-vo"}),
+  EXPECT_THAT(output({"benchmark", table, "--root", Path("empty"), "--modes", "pl-vo"}, 2),
               Names("--modes"));
 }
 

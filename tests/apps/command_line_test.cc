@@ -54,16 +54,22 @@ TEST_F(CommandLineTest, PrintsHelpForEveryCommand) {
 }
 
 TEST_F(CommandLineTest, ReturnsTwoForInvalidArguments) {
-  const std::vector<std::vector<std::string>> wrong = {{},
-                                                       {"fly"},
-                                                       {"replay"},
-                                                       {"replay", "x", "--fast"},
-                                                       {"replay", "x", "--format", "kitti"},
-                                                       {"replay", "x", "--mode", "orb"},
-                                                       {"replay", "x", "--max-frames", "-3"},
-                                                       {"evaluate", "one.txt"},
-                                                       {"check"},
-                                                       {"solve-window"}};
+  const std::vector<std::vector<std::string>> wrong = {
+      {},
+      {"fly"},
+      {"replay"},
+      {"replay", "x", "--fast"},
+      {"replay", "x", "--format", "kitti"},
+      {"replay", "x", "--mode", "orb"},
+      {"replay", "x", "--max-frames", "-3"},
+      {"evaluate", "one.txt"},
+      {"check"},
+      {"solve-window"},
+      {"evaluate", "a", "b", "--lines", "c", "--edges", "d", "--align", "none"},
+      {"replay", "--view", "x"},
+      {"export", "x", "tum", "y", "--voxel", "1"},
+      {"benchmark", "x", "--root", "y"},
+      {"calibrate", "x", "--set", "modee=pl-vo"}};
   for (const std::vector<std::string>& arguments : wrong) {
     const CommandOutcome outcome = RunCommand(arguments);
     EXPECT_EQ(outcome.exit_code, 2) << testing::PrintToString(arguments);
@@ -147,11 +153,17 @@ TEST_F(CommandLineTest, ReturnsOneForInvalidInput) {
   expect_error({"evaluate", Path("bad.txt"), Path("bad.txt")}, Names("bad.txt:1", "8"));
   expect_error({"replay", "x", "--config", Path("bad.yaml")},
                Names("bad.yaml:2", "tracking.wide_raduis", "tracking.wide_radius"));
-  expect_error({"replay", "x", "--set", "tracking.wide_raduis=3"},
-               Names("--set", "tracking.wide_radius"));
-  expect_error({"replay", "x", "--set", "tracking.wide_radius=a"},
-               Names("--set", "tracking.wide_radius", "0.1", "1000", "'a'"));
-  expect_error({"replay", "x", "--set", "mode"}, Names("--set", "NAME=VALUE"));
+}
+
+TEST_F(CommandLineTest, ReturnsTwoForInvalidSettings) {
+  const auto expect_error = [](const std::string& setting, const NamesMatcher& names) {
+    const CommandOutcome outcome = RunCommand({"replay", "x", "--set", setting});
+    EXPECT_EQ(outcome.exit_code, 2) << setting;
+    EXPECT_THAT(outcome.output, AllOf(Names("error:", "--set"), names));
+  };
+  expect_error("tracking.wide_raduis=3", Names("tracking.wide_radius"));
+  expect_error("tracking.wide_radius=a", Names("tracking.wide_radius", "0.1", "1000", "'a'"));
+  expect_error("mode", Names("NAME=VALUE"));
 }
 
 TEST_F(CommandLineTest, EvaluatesATrajectory) {
@@ -221,7 +233,7 @@ TEST_F(CommandLineTest, PrintsTheOptionsInMarkdown) {
   EXPECT_THAT(table.output, HasSubstr("| `tracking.wide_radius` | `60` |"));
   const CommandOutcome changed =
       RunCommand({"replay", "--print-config", "--markdown", "--no-points"});
-  EXPECT_EQ(changed.exit_code, 1);
+  EXPECT_EQ(changed.exit_code, 2);
   EXPECT_THAT(changed.output, Names("--markdown", "--config", "--set"));
   EXPECT_EQ(RunCommand({"replay", "x", "--all"}).exit_code, 2);
 }

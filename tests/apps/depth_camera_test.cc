@@ -44,7 +44,7 @@ TEST_F(DepthCameraTest, RejectsImpossibleRigs) {
   EXPECT_EQ(synthesize({"--rig=218,0.05"}).exit_code, 2);
   EXPECT_EQ(synthesize({"--untold"}).exit_code, 2);
   const CommandOutcome far = synthesize({"--rig=585,25,0,0"});
-  EXPECT_EQ(far.exit_code, 1);
+  EXPECT_EQ(far.exit_code, 2);
   EXPECT_THAT(far.output, LineNames("error:", "1 metre"));
 }
 

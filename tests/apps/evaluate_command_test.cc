@@ -150,7 +150,10 @@ TEST_F(EvaluateCommandTest, MeasuresRelativeErrorsOverADelta) {
   EXPECT_NEAR(seconds["translation"]["rmse"], 0.5 / std::sqrt(2.0), 1e-9);
   EXPECT_THAT(Evaluate({"--delta", "4", "--delta-unit", "metres"}).output,
               LineNames("RPE", "4 metres", "no pairs"));
-  EXPECT_THAT(Evaluate({"--delta", "1.5"}).output, Names("--delta"));
+  const CommandOutcome fraction = Evaluate({"--delta", "1.5"});
+  EXPECT_EQ(fraction.exit_code, 2);
+  EXPECT_THAT(fraction.output, AllOf(Names("--delta", "whole", "1.5", "--delta-unit"),
+                                     Not(HasSubstr("rpe_delta")), Not(HasSubstr("evaluation:"))));
   EXPECT_EQ(Evaluate({"--delta", "0"}).exit_code, 2);
 }
 

@@ -2,7 +2,9 @@
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <sstream>
 
 #include "tests/apps/command_process.h"
@@ -10,6 +12,7 @@
 #include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
+#include <opencv2/imgcodecs.hpp>
 
 #include "msc_vo/geometry/colored_mesh.h"
 #include "msc_vo/report/surface_layer.h"
@@ -77,8 +80,56 @@ Eigen::Vector3d NearestNormal(const Scene& scene, const Eigen::Vector3d& x) {
   return nearest->Normal();
 }
 
+// A floor that is black on the left and white on the right, seen by a camera that looks at it at 45
+// degrees: the plane (y + z) / sqrt(2) = kFloorDistance. The world is the frame of the camera.
+constexpr double kFloorDistance = 1.4;
+constexpr double kFloorFocalLength = 130.0;
+const Eigen::Vector2d kFloorCenter(79.5, 59.5);
+constexpr int kFirstWhiteColumn = 90;
+
+double FloorDistance(const Eigen::Vector3d& x) {
+  return (x.y() + x.z()) * M_SQRT1_2 - kFloorDistance;
+}
+
+void WriteFloorImages(const std::string& folder) {
+  cv::Mat_<uint16_t> depth(120, 160);
+  cv::Mat_<uint8_t> color(120, 160, uint8_t{0});
+  color.colRange(kFirstWhiteColumn, 160).setTo(255);
+  for (int y = 0; y < depth.rows; ++y) {
+    const double slope = (y - kFloorCenter.y()) / kFloorFocalLength;
+    const double z = kFloorDistance / ((slope + 1.0) * M_SQRT1_2);
+    depth.row(y).setTo(std::lround(5000.0 * z));
+  }
+  cv::imwrite(folder + "/rgb.png", color);
+  cv::imwrite(folder + "/depth.png", depth);
+}
+
 class FuseCommandTest : public TemporaryFolder {
  protected:
+  // Fuses images of the floor.
+  ColoredMesh FuseFloor(const std::vector<std::string>& more) {
+    WriteText("floor/camera.txt", "130 130 79.5 59.5 160 120 5000\n");
+    WriteFloorImages(Path("floor"));
+    std::string list, truth;
+    for (const std::string stamp : {"1.0", "1.1", "1.2"}) {
+      list += stamp + " rgb.png " + stamp + " depth.png\n";
+      truth += stamp + " 0 0 0 0 0 0 1\n";
+    }
+    WriteText("floor/associations.txt", list);
+    WriteText("floor/groundtruth.txt", truth);
+    std::vector<std::string> arguments = {"fuse",
+                                          Path("floor"),
+                                          Path("floor/groundtruth.txt"),
+                                          "--output",
+                                          Path("floor.ply"),
+                                          "--quiet",
+                                          "--voxel",
+                                          "0.02"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const CommandOutcome outcome = RunCommand(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    return ReadMesh(Path("floor.ply"));
+  }
   static void ExpectNormalsOfWalls(const ColoredMesh& points) {
     ASSERT_EQ(points.normals.size(), points.positions.size());
     const SyntheticSequence truth = Truth();
@@ -118,7 +169,7 @@ class FuseCommandTest : public TemporaryFolder {
 #ifdef MSC_VO_HAS_FUSION
 
 TEST_F(FuseCommandTest, TheSurfaceLiesOnTheWalls) {
-  ASSERT_EQ(Fuse("room.ply").exit_code, 0);
+  ASSERT_EQ(Fuse("room.ply", {}, kVoxel / 2.0).exit_code, 0);
   const ColoredMesh mesh = ReadMesh(Path("room.ply"));
   ASSERT_GT(mesh.positions.size(), 2000U);
   ASSERT_GT(mesh.triangles.size(), 2000U);
@@ -169,6 +220,35 @@ TEST_F(FuseCommandTest, TheSurfaceIsCompleteAndHasTheColorsOfTheImages) {
   ASSERT_GT(num_seen, 50);
   EXPECT_GT(num_found, 0.9 * num_seen);
   EXPECT_LT(Median(differences), 15.0);  // grey values; a voxel covers several texels
+}
+
+// Where a pixel is in its image does not matter on a plane that is parallel to the image.
+TEST_F(FuseCommandTest, AnInclinedPlaneIsAtItsDepth) {
+  for (const std::vector<std::string>& more :
+       std::vector<std::vector<std::string>>{{}, {"--points"}}) {
+    std::vector<double> distances;
+    for (const Eigen::Vector3f& x : FuseFloor(more).positions) {
+      distances.push_back(FloorDistance(x.cast<double>()));
+    }
+    ASSERT_GT(distances.size(), 1000U);
+    // Half a pixel is 5 mm on the floor.
+    EXPECT_NEAR(Median(distances), 0.0, 0.001);
+  }
+}
+
+TEST_F(FuseCommandTest, AnEdgeOfColoursIsAtItsPixel) {
+  const ColoredMesh mesh = FuseFloor({});
+  int num_near = 0, num_wrong = 0;
+  for (size_t i = 0; i < mesh.positions.size(); ++i) {
+    const Eigen::Vector3d x = mesh.positions[i].cast<double>();
+    const double column = kFloorFocalLength * x.x() / x.z() + kFloorCenter.x();
+    const double from_border = column - (kFirstWhiteColumn - 0.5);
+    if (std::abs(from_border) > 1.5) continue;
+    ++num_near;
+    num_wrong += (from_border > 0.0) != (mesh.colors[i][0] > 127) ? 1 : 0;
+  }
+  ASSERT_GT(num_near, 300);
+  EXPECT_LT(num_wrong, num_near / 20);  // a sixth if the border is displaced by half a pixel
 }
 
 TEST_F(FuseCommandTest, WritesPointsAndTheSameBytesTwice) {
@@ -237,11 +317,24 @@ TEST_F(FuseCommandTest, NamesATrajectoryOfOtherImages) {
   EXPECT_THAT(outcome.output, LineNames("error:", "other.txt", "1"));
 }
 
+TEST_F(FuseCommandTest, RefusesNamesOfOtherFormats) {
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"fuse", Path("room"), Path("room/groundtruth.txt"), "--output", Path("room.obj")},
+           {"export", Path("out"), "ply", Path("room.obj")},
+           {"replay", Path("room"), "--export", "ply=" + Path("room.obj")}}) {
+    const CommandOutcome outcome = RunCommand(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
+    EXPECT_THAT(outcome.output, Names(".ply", "room.obj"));
+    EXPECT_FALSE(HasEntry(Path("room.obj")));
+  }
+}
+
 TEST_F(FuseCommandTest, DoesNotOverwriteTheTrajectory) {
-  const CommandOutcome outcome = RunCommand({"fuse", Path("room"), Path("room/groundtruth.txt"),
-                                             "--output", Path("room/groundtruth.txt")});
+  std::filesystem::copy_file(Path("room/groundtruth.txt"), Path("truth.ply"));
+  const CommandOutcome outcome =
+      RunCommand({"fuse", Path("room"), Path("truth.ply"), "--output", Path("truth.ply")});
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(outcome.output, HasSubstr("groundtruth.txt"));
+  EXPECT_THAT(outcome.output, LineNames("error:", "truth.ply", "input"));
 }
 
 }  // namespace

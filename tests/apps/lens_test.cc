@@ -57,7 +57,7 @@ TEST_F(LensTest, RejectsImpossibleLenses) {
   EXPECT_THAT(outcome.output, Names("--lens", "k1 k2 k3 k4"));
   EXPECT_EQ(synthesize({"--lens=fisheye:0,0,a,0"}).exit_code, 2);
   outcome = synthesize({"--lens=fisheye:-3,0,0,0"});
-  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.output, LineNames("error:", "fold"));
 }
 

@@ -5,12 +5,14 @@
 
 #include <csignal>
 #include <filesystem>
+#include <map>
 
 #include "tests/apps/command_process.h"
 #include "tests/apps/rendered_sequence.h"
 #include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <unistd.h>
 
@@ -53,6 +55,19 @@ class MapOutputTest : public PreparedFolder {
   }
   CommandOutcome Export(const std::string& file) const {
     return RunCommand({"map", "export", Path(file), "--output", Path("export")});
+  }
+  // The contents of the files of an export, by their names.
+  std::map<std::string, std::string> ExportedFiles() const {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(Path("export"))) {
+      const std::string path = entry.path().string();
+      files[path] = entry.is_directory() ? "" : ReadFile(path);
+    }
+    return files;
+  }
+  void WriteList(const std::vector<std::string>& files) const {
+    const nlohmann::json list = {{"written_by", "msc_vo map export"}, {"files", files}};
+    WriteText("export/export.json", list.dump());
   }
   // Kills a run over `room` with new.map after its first checkpoint.
   void KillRun() const {
@@ -138,22 +153,75 @@ TEST_F(MapOutputTest, LeavesOutASessionWithoutKeyframes) {
   EXPECT_EQ(after.sessions.front().num_keyframes, before.sessions.front().num_keyframes);
 }
 
-TEST_F(MapOutputTest, ReplacesAnEarlierExport) {
-  for (const char* name : {"submap_0/keyframes_2.txt", "submap_0/notes.txt", "submap_1/points.ply",
-                           "submap_1/planes.ply", "submap_1/keyframes_12.txt", "submap_2/graph.g2o",
-                           "submap_2/keyframes_a.txt", "submap_a/points.ply"}) {
+TEST_F(MapOutputTest, ReplacesTheFilesOfAnEarlierExport) {
+  for (const char* name : {"submap_0/graph.g2o", "submap_0/keyframes_2.txt", "submap_0/notes.txt",
+                           "submap_1/points.ply", "submap_2/points.ply", "submap_2/planes.ply",
+                           "keyframe_images/900000.jpg", "keyframe_images/900001.jpg"}) {
     WriteText(std::string("export/") + name, "earlier");
   }
+  WriteList({"submap_0/graph.g2o", "submap_0/keyframes_2.txt", "submap_1/points.ply",
+             "submap_2/planes.ply", "submap_3/none.ply", "keyframe_images/900000.jpg"});
   const CommandOutcome outcome = Export("home.map");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
-  for (const char* name : {"submap_0/keyframes_2.txt", "submap_1", "submap_2/graph.g2o"}) {
+  for (const char* name : {"submap_0/keyframes_2.txt", "submap_1", "submap_2/planes.ply",
+                           "keyframe_images/900000.jpg"}) {
     EXPECT_FALSE(HasEntry(Path("export/") + name)) << name;
   }
+  // In no list, whatever their names.
   for (const char* name :
-       {"submap_0/notes.txt", "submap_2/keyframes_a.txt", "submap_a/points.ply"}) {
+       {"submap_0/notes.txt", "submap_2/points.ply", "keyframe_images/900001.jpg"}) {
     EXPECT_EQ(ReadFile(Path("export/") + name), "earlier") << name;
   }
+  EXPECT_NE(ReadFile(Path("export/submap_0/graph.g2o")), "earlier");
   EXPECT_TRUE(HasEntry(Path("export/submap_0/keyframes_1.txt")));
+  const auto files = ExportedFiles();
+  EXPECT_EQ(Export("home.map").exit_code, 0);
+  EXPECT_EQ(ExportedFiles(), files);
+}
+
+TEST_F(MapOutputTest, KeepsAnEarlierExportThatItCannotReplace) {
+  ASSERT_EQ(Export("home.map").exit_code, 0);
+  WriteText("export/submap_0/points.ply", "earlier");
+  const auto files = ExportedFiles();
+  std::string damaged = ReadFile(Path("home.map"));
+  for (size_t at = damaged.find("JFIF"); at != std::string::npos; at = damaged.find("JFIF", at)) {
+    damaged[at] = 'X';
+  }
+  WriteText("damaged.map", damaged);
+  const CommandOutcome outcome = Export("damaged.map");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.output, LineNames("error:", "damaged.map"));
+  EXPECT_EQ(ExportedFiles(), files);
+
+  WriteText("export/submap_0/graph.g2o", "mine");
+  WriteList({"submap_0/points.ply"});
+  const auto own_files = ExportedFiles();
+  const CommandOutcome own = Export("home.map");
+  EXPECT_EQ(own.exit_code, 1);
+  EXPECT_THAT(own.output, LineNames("error:", "keyframe_images", "another folder"));
+  EXPECT_EQ(ExportedFiles(), own_files);
+}
+
+TEST_F(MapOutputTest, RefusesAFolderInWhichAnExportIsUnfinished) {
+  WriteText("export/export.json.files/notes.txt", "mine");
+  const CommandOutcome outcome = Export("home.map");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.output, LineNames("error:", "export.json.files", "remove it"));
+  EXPECT_EQ(ReadFile(Path("export/export.json.files/notes.txt")), "mine");
+}
+
+TEST_F(MapOutputTest, RefusesListsThatNoExportHasWritten) {
+  WriteText("kept.txt", "mine");
+  for (const char* text :
+       {"{}", "[", R"({"written_by": "msc_vo map export", "files": ["../kept.txt"]})",
+        R"({"written_by": "msc_vo map export", "files": ["a/../../kept.txt"]})",
+        R"({"written_by": "another program", "files": ["submap_0/points.ply"]})"}) {
+    WriteText("export/export.json", text);
+    const CommandOutcome outcome = Export("home.map");
+    EXPECT_EQ(outcome.exit_code, 1) << text;
+    EXPECT_THAT(outcome.output, LineNames("error:", "export.json", "another folder"));
+  }
+  EXPECT_EQ(ReadFile(Path("kept.txt")), "mine");
 }
 
 TEST_F(MapOutputTest, RefusesToExportOverTheMap) {
@@ -162,6 +230,11 @@ TEST_F(MapOutputTest, RefusesToExportOverTheMap) {
   const CommandOutcome outcome = Export("export/submap_0/points.ply");
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.output, LineNames("error:", "points.ply", "another folder"));
+  EXPECT_TRUE(ReadFile(Path("export/submap_0/points.ply")) == ReadFile(Path("home.map")));
+  WriteList({"submap_0/points.ply"});
+  const CommandOutcome listed = Export("export/submap_0/points.ply");
+  EXPECT_EQ(listed.exit_code, 1);
+  EXPECT_THAT(listed.output, LineNames("error:", "points.ply", "another folder"));
   EXPECT_TRUE(ReadFile(Path("export/submap_0/points.ply")) == ReadFile(Path("home.map")));
 
   fs::create_directories(Path("model"));

@@ -154,6 +154,40 @@ TEST_F(OverwritingTest, RefusesToOverwriteWindowsAndDevices) {
   EXPECT_TRUE(fs::is_symlink(Path("full")));
 }
 
+// Also files that no reader of the sequence reads.
+TEST_F(OverwritingTest, FuseReplacesOnlySurfacesInTheFolderOfTheSequence) {
+  Synthesize("room");
+  WriteText("room/models/chair.ply", "ply\n");
+  const auto before = Contents("room");
+  const auto fuse = [this](const std::string& output) -> std::vector<std::string> {
+    return {"fuse",     Path("room"), Path("room/groundtruth.txt"), "--voxel", "0.05",
+            "--output", Path(output)};
+  };
+  ExpectRefused(fuse("room/edges.ply"));
+  ExpectRefused(fuse("room/models/chair.ply"));
+  EXPECT_EQ(Contents("room"), before);
+#ifdef MSC_VO_HAS_FUSION
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(RunCommand(fuse("room/surface.ply")).exit_code, 0);
+  WriteText("chair.ply", "ply\n");
+  EXPECT_EQ(RunCommand(fuse("room/../chair.ply")).exit_code, 0);
+  ExpectRefused({"export", Path("room/groundtruth.txt"), "ply", Path("room/edges.ply"),
+                 "--sequence", Path("room")});
+#endif
+}
+
+TEST_F(OverwritingTest, CalibrateReplacesOnlyCamerasInTheFolderOfTheSequence) {
+  Synthesize("room");
+  WriteText("room/plot.html", "<title>A plot</title>");
+  WriteText("room/camera.yaml", "# written by msc_vo calibrate\n");
+  const auto before = Contents("room");
+  ExpectRefused({"calibrate", Path("room"), "--output", Path("room/truth.json")});
+  ExpectRefused({"calibrate", Path("room"), "--plot", Path("room/plot.html")});
+  EXPECT_EQ(Contents("room"), before);
+  const CommandOutcome again =
+      RunCommand({"calibrate", Path("room"), "--quiet", "--output", Path("room/camera.yaml")});
+  EXPECT_THAT(again.output, testing::Not(HasSubstr("input")));
+}
+
 TEST_F(OverwritingTest, SynthesizeReplacesLinksInsteadOfTheirTargets) {
   Synthesize("room");
   const auto before = Contents("room");
@@ -161,8 +195,8 @@ TEST_F(OverwritingTest, SynthesizeReplacesLinksInsteadOfTheirTargets) {
   for (const auto& entry : fs::directory_iterator(Path("room"))) {
     fs::create_symlink(entry.path(), fs::path(Path("copy")) / entry.path().filename());
   }
-  const CommandOutcome outcome =
-      RunCommand({"synthesize", Path("copy"), "--frames", "2", "--width", "160", "--seed", "7"});
+  const CommandOutcome outcome = RunCommand({"synthesize", Path("copy"), "--frames", "2", "--width",
+                                             "160", "--seed", "7", "--overwrite"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
   EXPECT_EQ(Contents("room"), before);
 }

@@ -176,7 +176,7 @@ TEST_F(ResumeTest, RefusesAnotherRun) {
   EXPECT_THAT(option.output, Names("--resume", "--no-lines"));
   const CommandOutcome realtime =
       RunCommand({"replay", Path("room"), "--resume", Path("out"), "--realtime"});
-  EXPECT_EQ(realtime.exit_code, 1);
+  EXPECT_EQ(realtime.exit_code, 2);
   EXPECT_THAT(realtime.output, LineNames("error:", "--resume", "real time"));
   const std::string stamp = ReadTextLines(Path("room/rgb.txt")).at(20).fields.at(1);
   std::filesystem::copy_file(Path("room/" + ReadTextLines(Path("room/rgb.txt")).at(0).fields.at(1)),

@@ -33,9 +33,10 @@ class SolveWindowCommandTest : public TemporaryFolder {
     options.num_lines = 10;
     return MakeSyntheticWindow(options).data;
   }
-  void ExpectError(const std::vector<std::string>& arguments, const NamesMatcher& names) {
+  void ExpectError(const std::vector<std::string>& arguments, const NamesMatcher& names,
+                   int exit_code = 1) {
     const CommandOutcome outcome = RunCommand(arguments);
-    EXPECT_EQ(outcome.exit_code, 1) << testing::PrintToString(arguments);
+    EXPECT_EQ(outcome.exit_code, exit_code) << testing::PrintToString(arguments);
     EXPECT_THAT(outcome.output, AllOf(Names("error:"), names));
   }
   std::vector<std::string> FilesIn(const std::string& name) {
@@ -106,9 +107,9 @@ TEST_F(SolveWindowCommandTest, ReportsErrorsWithTheFile) {
   WriteWindow(Path("good.txt"), BundleAdjustmentOptions(), data);
   ExpectError({"solve-window", Path("none.txt")}, Names("none.txt", "exist"));
   ExpectError({"solve-window", Path("good.txt"), "--set", "mode=pl-vo"},
-              Names("--set", "mode=pl-vo", "mapping.window"));
+              Names("--set", "mode=pl-vo", "mapping.window"), 2);
   ExpectError({"solve-window", Path("good.txt"), "--set", "mapping.window.first_iterations=0"},
-              Names("--set", "mapping.window.first_iterations", "1", "'0'"));
+              Names("--set", "mapping.window.first_iterations", "1", "'0'"), 2);
   ExpectError({"solve-window", Path("good.txt"), "--output", Path("no/folder.txt")},
               Names("folder.txt", "written"));
   data.point_observations[3].point = 987;

@@ -100,7 +100,7 @@ TEST_F(SynthesizeCommandTest, RecordsOtherPathsThroughAScene) {
   EXPECT_EQ(ReadFile(Path("first/edges.ply")), ReadFile(Path("other/edges.ply")));
   EXPECT_NE(ReadFile(Path("first/groundtruth.txt")), ReadFile(Path("other/groundtruth.txt")));
   const CommandOutcome outcome = Synthesize("room", {"--scene", "room", "--returns"});
-  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.output, AllOf(HasSubstr("--returns"), HasSubstr("rooms")));
 }
 
@@ -230,35 +230,90 @@ TEST_F(SynthesizeCommandTest, DisplacesDepthOfIclNuim) {
   EXPECT_LT(median_difference(of_plain, of_moved), median_difference(of_plain, of_plain));
 }
 
+// The same options render the same sequence again, and take nothing away.
+TEST_F(SynthesizeCommandTest, ReplacesTheSequenceOfTheSameOptions) {
+  Truth("room", {"--seed", "3"});
+  const std::string color = Color("room");
+  WriteText("room/rgb/1.000000.png", "damaged");
+  WriteText("room/notes.txt", "mine");
+  Truth("room", {"--seed", "3", "--scene", "room", "--json"});  // the default scene
+  EXPECT_TRUE(Color("room") == color);
+  EXPECT_EQ(ReadFile(Path("room/notes.txt")), "mine");
+
+  WriteText("room/rgb/9.500000.png", "of a run that was killed");
+  Truth("room", {"--seed", "3", "--fps", "30.0", "--hunting-exposure=false"});  // the same options
+  EXPECT_FALSE(HasEntry(Path("room/rgb/9.500000.png")));
+
+  WriteText("room/depth/mine.png", "mine");
+  const CommandOutcome added = Synthesize("room", {"--seed", "3"});
+  EXPECT_EQ(added.exit_code, 1);
+  EXPECT_THAT(added.output, LineNames("error:", Path("room/depth/mine.png"), "--overwrite"));
+  EXPECT_TRUE(Color("room") == color);
+}
+
+TEST_F(SynthesizeCommandTest, RefusesToReplaceOtherSequences) {
+  const std::string fine = "--fps=60";
+  Truth("room", {"--seed", "3", fine});
+  const std::string color = Color("room");
+  const CommandOutcome other = Synthesize("room", {"--seed", "4", fine});
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_THAT(other.output, LineNames("error:", Path("room"), "--seed", "3", "4", "--overwrite"));
+  const CommandOutcome jpeg = Synthesize("room", {"--seed", "3", fine, "--jpeg"});
+  EXPECT_EQ(jpeg.exit_code, 1);
+  EXPECT_THAT(jpeg.output, LineNames("error:", Path("room"), "--jpeg", "--overwrite"));
+  EXPECT_TRUE(Color("room") == color);
+
+  WriteText("room/rgb/mine.png", "mine");
+  Truth("room", {"--seed", "3", fine, "--jpeg", "--overwrite"});
+  EXPECT_FALSE(HasEntry(Path("room/rgb/1.000000.png")));
+  EXPECT_GT(ColorBytes("room"), 0U);
+  EXPECT_EQ(ReadFile(Path("room/rgb/mine.png")), "mine");
+}
+
+TEST_F(SynthesizeCommandTest, KeepsTheFilesOfOthersInTheirFolders) {
+  WriteText("other/rgb.txt", "1.5 rgb/1.500000.png\n1.6 ../kept.png\n");
+  WriteText("other/rgb/1.500000.png", "theirs");
+  WriteText("kept.png", "theirs");
+  const CommandOutcome outcome = Synthesize("other", {});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.output, LineNames("error:", Path("other"), "--overwrite"));
+  Truth("other", {"--overwrite"});
+  EXPECT_EQ(ReadFile(Path("other/rgb/1.500000.png")), "theirs");
+  // A list of a sequence that names files elsewhere.
+  WriteText("other/rgb.txt", "1.0 rgb/../../kept.png\n1.1 ../kept.png\n");
+  Truth("other", {"--overwrite", "--seed", "2"});
+  EXPECT_EQ(ReadFile(Path("kept.png")), "theirs");
+}
+
 TEST_F(SynthesizeCommandTest, RefusesBadValues) {
-  const auto expect_refused = [this](const std::vector<std::string>& arguments, int exit_code,
+  const auto expect_refused = [this](const std::vector<std::string>& arguments,
                                      const NamesMatcher& names) {
     const CommandOutcome outcome = Synthesize("bad", arguments);
-    EXPECT_EQ(outcome.exit_code, exit_code) << testing::PrintToString(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << testing::PrintToString(arguments);
     EXPECT_THAT(outcome.output, AllOf(names, Not(HasSubstr("SyntheticSequence"))));
     EXPECT_FALSE(HasEntry(Path("bad"))) << testing::PrintToString(arguments);
   };
-  expect_refused({"--focal-length-error", "-95"}, 2, Names("--focal-length-error", "-95"));
-  expect_refused({"--focal-length-error", "a"}, 2, Names("--focal-length-error"));
-  expect_refused({"--principal-point-error", "3"}, 2, Names("--principal-point-error", "2"));
-  expect_refused({"--principal-point-error", "3,nan"}, 2, Names("--principal-point-error", "nan"));
-  expect_refused({"--principal-point-error", "100,0"}, 1, Names("camera.txt", "cx", "179.5"));
-  expect_refused({"--light", "0"}, 2, Names("--light", "0"));
-  expect_refused({"--light", "1.5"}, 2, Names("--light", "1.5"));
-  expect_refused({"--motion-blur", "1.5"}, 2, Names("--motion-blur", "1.5"));
-  expect_refused({"--hunting-exposure=maybe"}, 2, Names("--hunting-exposure"));
-  expect_refused({"--depth-factor", "0"}, 2, Names("--depth-factor", "0"));
-  expect_refused({"--depth-bias", "0.01"}, 1, Names("--depth-bias", "--depth-sensor tof"));
-  expect_refused({"--depth-bias", "0.01", "--sensor", "stereo"}, 1,
+  expect_refused({"--focal-length-error", "-95"}, Names("--focal-length-error", "-95"));
+  expect_refused({"--focal-length-error", "a"}, Names("--focal-length-error"));
+  expect_refused({"--principal-point-error", "3"}, Names("--principal-point-error", "2"));
+  expect_refused({"--principal-point-error", "3,nan"}, Names("--principal-point-error", "nan"));
+  expect_refused({"--principal-point-error", "100,0"}, Names("camera.txt", "cx", "179.5"));
+  expect_refused({"--light", "0"}, Names("--light", "0"));
+  expect_refused({"--light", "1.5"}, Names("--light", "1.5"));
+  expect_refused({"--motion-blur", "1.5"}, Names("--motion-blur", "1.5"));
+  expect_refused({"--hunting-exposure=maybe"}, Names("--hunting-exposure"));
+  expect_refused({"--depth-factor", "0"}, Names("--depth-factor", "0"));
+  expect_refused({"--depth-bias", "0.01"}, Names("--depth-bias", "--depth-sensor tof"));
+  expect_refused({"--depth-bias", "0.01", "--sensor", "stereo"},
                  Names("--depth-bias", "--depth-sensor tof"));
-  expect_refused({"--specular", "window"}, 2, Names("--specular", "window"));
-  expect_refused({"--specular", "mirror", "--scene", "bare"}, 1,
-                 Names("--specular", "--scene room"));
-  expect_refused({"--depth-offset", "1,2"}, 1, Names("--depth-offset", "--depth-sensor icl-nuim"));
-  expect_refused({"--depth-offset", "1", "--depth-sensor", "icl-nuim"}, 2, Names("--depth-offset"));
-  expect_refused({"--depth-offset", "1,200", "--depth-sensor", "icl-nuim"}, 2,
+  expect_refused({"--specular", "window"}, Names("--specular", "window"));
+  expect_refused({"--specular", "mirror", "--scene", "bare"}, Names("--specular", "--scene room"));
+  expect_refused({"--depth-offset", "1,2"}, Names("--depth-offset", "--depth-sensor icl-nuim"));
+  expect_refused({"--depth-offset", "1", "--depth-sensor", "icl-nuim"}, Names("--depth-offset"));
+  expect_refused({"--depth-offset", "1,200", "--depth-sensor", "icl-nuim"},
                  Names("--depth-offset", "200"));
-  expect_refused({"--readout-time", "0.5"}, 1, LineNames("error:", "readout_time"));
+  expect_refused({"--returns"}, Names("--returns", "--scene rooms"));
+  expect_refused({"--readout-time", "0.5"}, LineNames("error:", "readout_time"));
 }
 
 }  // namespace
