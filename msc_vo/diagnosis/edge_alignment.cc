@@ -4,6 +4,7 @@
 #include "msc_vo/diagnosis/edge_alignment.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -17,11 +18,22 @@ namespace msc_vo {
 namespace {
 
 constexpr int kCoarseWidth = 320, kFineWidth = 640;  // pixels
-constexpr int kCoarseReach = 20;                     // steps: 40 pixels of 640
+// Reaches in steps. The coarse one is 40 pixels of 640: unregistered cameras of Kinects are off by
+// 10 to 30.
+constexpr int kCoarseReach = 20;
+// Steps on both sides of a peak that determine its place: saturated gradients make the top of a
+// peak flat over three steps.
+constexpr int kPeakReach = 2;
+// The fine peak is searched for within this distance of the coarse one, coarse steps.
+constexpr double kSearchRadius = 1.5;
+// Shifts up to 5 pixels of 640, the largest usual ones, are refined: 5 + 2 * kSearchRadius +
+// kPeakReach.
 constexpr int kFineReach = 10;
+// Mirrored images are otherwise registered, to 4 pixels of 640.
 constexpr int kMirroredReach = 2;
-// Gradients so close to the border do not count, pixels.
-constexpr int kBorder = 4;
+// Size of the cells that tell repeated edges from others, pixels of the coarse image: more than the
+// noise of an edge's place.
+constexpr int kCellSize = 4;
 
 cv::Mat Mirror(const cv::Mat& image, Mirroring mirroring) {
   if (mirroring == Mirroring::kNone) return image;
@@ -79,9 +91,10 @@ EdgeWeights WeightsOf(const std::vector<DepthEdge>& edges, cv::Size reduced, cv:
 // Adds the correlation of weights and gradients for all shifts within the reach of `sum`.
 void AddCorrelation(const cv::Mat& weights, const cv::Mat& gradients, cv::Mat* sum) {
   const int size = sum->cols, reach = size / 2;
-  if (weights.rows <= 2 * kBorder || weights.cols <= 2 * kBorder) return;
+  if (weights.rows <= 2 * kEdgeBorder || weights.cols <= 2 * kEdgeBorder) return;
   cv::Mat padded(weights.rows + 2 * reach, weights.cols + 2 * reach, CV_32FC1, cv::Scalar(0));
-  const cv::Rect inside(kBorder, kBorder, weights.cols - 2 * kBorder, weights.rows - 2 * kBorder);
+  const cv::Rect inside(kEdgeBorder, kEdgeBorder, weights.cols - 2 * kEdgeBorder,
+                        weights.rows - 2 * kEdgeBorder);
   gradients(inside).copyTo(padded(inside + cv::Point(reach, reach)));
   for (int y = 0; y < weights.rows; ++y) {
     for (int x = 0; x < weights.cols; ++x) {
@@ -107,28 +120,53 @@ cv::Mat Correlate(const EdgeWeights& weights, const EdgeGradients& gradients, in
 // A reduced image with its edges.
 struct ReducedEdges {
   ReducedImage image;
-  int num_edges = 0;
+  std::vector<DepthEdge> edges;
   EdgeWeights weights;
 };
 
 ReducedEdges FindReducedEdges(const cv::Mat& gray, const cv::Mat& depth, int width) {
   const ReducedImage image = Reduce(gray, depth, width);
-  const std::vector<DepthEdge> edges = FindDepthEdges(image.depth);
-  return {image, static_cast<int>(edges.size()),
-          WeightsOf(edges, image.depth.size(), depth.size())};
+  // The same gap at all widths, so that coarse and fine edges are those of the same surfaces.
+  const double coarse_step = std::max(1.0, static_cast<double>(depth.cols) / kCoarseWidth);
+  const auto max_gap = static_cast<int>(std::ceil(kMaxEdgeGap * coarse_step / image.step));
+  std::vector<DepthEdge> edges = FindDepthEdges(image.depth, max_gap);
+  EdgeWeights weights = WeightsOf(edges, image.depth.size(), depth.size());
+  return {image, std::move(edges), std::move(weights)};
 }
 
 EdgeScore ScoreOf(const ReducedEdges& reduced, int reach) {
   return {reduced.image.step, reach,
-          Correlate(reduced.weights, GradientsOf(reduced.image.gray), reach), reduced.num_edges};
+          Correlate(reduced.weights, GradientsOf(reduced.image.gray), reach),
+          static_cast<int>(reduced.edges.size())};
+}
+
+// The part of a score for shifts up to `reach`.
+EdgeScore CentralPart(const EdgeScore& score, int reach) {
+  const int first = score.reach - reach, size = 2 * reach + 1;
+  return {score.step, reach, score.sum(cv::Rect(first, first, size, size)).clone(),
+          score.num_edges};
+}
+
+// Edges along rows and along columns in each cell.
+cv::Mat CountInCells(const std::vector<DepthEdge>& edges, const cv::Size& size) {
+  cv::Mat cells((size.height + kCellSize - 1) / kCellSize, (size.width + kCellSize - 1) / kCellSize,
+                CV_8UC2, cv::Scalar::all(0));
+  for (const DepthEdge& edge : edges) {
+    auto& counts = cells.at<cv::Vec2b>(edge.y / kCellSize, edge.x / kCellSize);
+    ++counts[edge.horizontal_jump ? 0 : 1];
+  }
+  return cells;
+}
+
+double Maximum(const cv::Mat& score) {
+  double maximum = 0.0;
+  cv::minMaxLoc(score, nullptr, &maximum);
+  return maximum;
 }
 
 double MirroredScore(const ReducedEdges& reduced, Mirroring mirroring) {
-  const cv::Mat scores = Correlate(
-      reduced.weights, GradientsOf(Mirror(reduced.image.gray, mirroring)), kMirroredReach);
-  double best = 0.0;
-  cv::minMaxLoc(scores, nullptr, &best);
-  return best;
+  return Maximum(Correlate(reduced.weights, GradientsOf(Mirror(reduced.image.gray, mirroring)),
+                           kMirroredReach));
 }
 
 void AddScore(const EdgeScore& score, EdgeScore* total) {
@@ -141,37 +179,65 @@ void AddScore(const EdgeScore& score, EdgeScore* total) {
   }
 }
 
-// Offset of the vertex of the parabola through three equally spaced values, in steps.
-double Vertex(double before, double at, double after) {
-  const double curvature = before - 2.0 * at + after;
-  return curvature < 0.0 ? std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5) : 0.0;
+// Offset in steps of the vertex of the parabola that fits best to the values at -2, -1, 0, 1 and 2.
+double Vertex(const std::array<double, 2 * kPeakReach + 1>& values) {
+  double slope = 0.0, curvature = 0.0;
+  for (int i = 0; i < 2 * kPeakReach + 1; ++i) {
+    const int x = i - kPeakReach;
+    slope += x * values[i] / 10.0;
+    curvature += (x * x - 2) * values[i] / 7.0;
+  }
+  return curvature < 0.0 ? std::clamp<double>(-slope / curvature, -kPeakReach, kPeakReach) : 0.0;
+}
+
+// Place of the peak beside element `start` of a line of `count` values, to a fraction of an
+// element: the vertex of a parabola around the element nearest to that vertex, so that the centre
+// of a flat top is found from each of its elements. `start` at the end of the line.
+template <typename At>
+double PeakBeside(int start, int count, const At& value_at) {
+  int center = start;
+  double offset = 0.0;
+  for (int i = 0; i <= kPeakReach; ++i) {
+    if (center < kPeakReach || center >= count - kPeakReach) return start;
+    std::array<double, 2 * kPeakReach + 1> values;
+    for (int k = 0; k < 2 * kPeakReach + 1; ++k) values[k] = value_at(center + k - kPeakReach);
+    offset = Vertex(values);
+    const int move = static_cast<int>(std::lround(offset));
+    if (move == 0) break;
+    center += move;
+    offset -= move;
+  }
+  return center + offset;
 }
 
 // Shift of an element of a score to a fraction of a step, pixels of the full image.
 Eigen::Vector2d ShiftOf(const EdgeScore& score, const cv::Point& element) {
-  const auto at = [&](int x, int y) {
-    return score.sum.at<double>(std::clamp(y, 0, score.sum.rows - 1),
-                                std::clamp(x, 0, score.sum.cols - 1));
-  };
-  const int x = element.x, y = element.y;
+  const auto in_row = [&](int x) { return score.sum.at<double>(element.y, x); };
+  const auto in_column = [&](int y) { return score.sum.at<double>(y, element.x); };
   return score.step *
-         Eigen::Vector2d(x - score.reach + Vertex(at(x - 1, y), at(x, y), at(x + 1, y)),
-                         y - score.reach + Vertex(at(x, y - 1), at(x, y), at(x, y + 1)));
+         Eigen::Vector2d(PeakBeside(element.x, score.sum.cols, in_row) - score.reach,
+                         PeakBeside(element.y, score.sum.rows, in_column) - score.reach);
 }
 
-// Peak of the fine score within a step and a half of the coarse one, whose shift is given; none if
-// the fine score does not reach as far.
+// Shift of the fine score's peak beside the coarse one, whose shift is given; none if the fine
+// score has no peak there.
 std::optional<Eigen::Vector2d> FindFinePeak(const EdgeAlignment& alignment,
                                             const Eigen::Vector2d& coarse) {
   const EdgeScore& fine = alignment.fine;
+  const double ratio = alignment.coarse.step / fine.step;
+  if (2.0 * fine.num_edges < ratio * alignment.coarse.num_edges) return std::nullopt;
   const Eigen::Array2d center = coarse.array() / fine.step + fine.reach;
-  const double radius = 1.5 * alignment.coarse.step / fine.step;
-  const auto first = (center - radius).ceil().cast<int>().eval();
-  const auto last = (center + radius).floor().cast<int>().eval();
-  if (first.minCoeff() < 1 || last.maxCoeff() >= 2 * fine.reach) return std::nullopt;
+  const auto first = (center - kSearchRadius * ratio).ceil().cast<int>().eval();
+  const auto last = (center + kSearchRadius * ratio).floor().cast<int>().eval();
+  if (first.minCoeff() < kPeakReach || last.maxCoeff() > 2 * fine.reach - kPeakReach) {
+    return std::nullopt;
+  }
   const cv::Rect region(first.x(), first.y(), last.x() - first.x() + 1, last.y() - first.y() + 1);
   cv::Point peak;
   cv::minMaxLoc(fine.sum(region), nullptr, nullptr, nullptr, &peak);
+  if (peak.x == 0 || peak.y == 0 || peak.x == region.width - 1 || peak.y == region.height - 1) {
+    return std::nullopt;
+  }
   return ShiftOf(fine, peak + region.tl());
 }
 
@@ -181,9 +247,13 @@ EdgeAlignment AlignEdges(const cv::Mat& gray, const cv::Mat& depth, bool tests_m
   const ReducedEdges coarse = FindReducedEdges(gray, depth, kCoarseWidth);
   EdgeAlignment alignment;
   alignment.coarse = ScoreOf(coarse, kCoarseReach);
-  alignment.fine = ScoreOf(FindReducedEdges(gray, depth, kFineWidth), kFineReach);
-  if (!tests_mirroring || coarse.num_edges == 0) return alignment;
-  for (int m = 0; m < kNumMirrorings; ++m) {
+  alignment.fine = depth.cols <= kCoarseWidth
+                       ? CentralPart(alignment.coarse, kFineReach)
+                       : ScoreOf(FindReducedEdges(gray, depth, kFineWidth), kFineReach);
+  alignment.cells = CountInCells(coarse.edges, coarse.image.depth.size());
+  if (!tests_mirroring || coarse.edges.empty()) return alignment;
+  alignment.mirrored_score[0] = Maximum(CentralPart(alignment.coarse, kMirroredReach).sum);
+  for (int m = 1; m < kNumMirrorings; ++m) {
     alignment.mirrored_score[m] = MirroredScore(coarse, static_cast<Mirroring>(m));
   }
   return alignment;
@@ -192,7 +262,17 @@ EdgeAlignment AlignEdges(const cv::Mat& gray, const cv::Mat& depth, bool tests_m
 void Add(const EdgeAlignment& image, EdgeAlignment* sum) {
   AddScore(image.coarse, &sum->coarse);
   AddScore(image.fine, &sum->fine);
+  if (sum->cells.empty()) {
+    sum->cells = image.cells.clone();
+  } else {
+    cv::max(sum->cells, image.cells, sum->cells);
+  }
   for (int m = 0; m < kNumMirrorings; ++m) sum->mirrored_score[m] += image.mirrored_score[m];
+}
+
+int NumDistinctEdges(const EdgeAlignment& alignment) {
+  const cv::Scalar sum = cv::sum(alignment.cells);
+  return static_cast<int>(sum[0] + sum[1]);
 }
 
 EdgeShift FindPeak(const EdgeAlignment& alignment) {

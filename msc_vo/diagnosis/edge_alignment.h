@@ -33,6 +33,9 @@ struct EdgeScore {
 struct EdgeAlignment {
   EdgeScore coarse;  ///< at 320 pixels in width, for large shifts
   EdgeScore fine;    ///< at 640 pixels in width, for the place of the peak
+  /// CV_8UC2: depth edges along rows and along columns in each cell of 4 x 4 pixels at 320 pixels
+  /// in width; of several images the maximum. See NumDistinctEdges().
+  cv::Mat cells;
   /// Best coarse score within two steps of no shift for each Mirroring of the colour image; sum
   /// over the edges.
   std::array<double, kNumMirrorings> mirrored_score = {};
@@ -53,8 +56,13 @@ EdgeAlignment AlignEdges(const cv::Mat& gray, const cv::Mat& depth, bool tests_m
 /// Adds scores of the same size; an empty sum takes the size of the first.
 void Add(const EdgeAlignment& image, EdgeAlignment* sum);
 
-/// Peak of the coarse score; its place is that of the fine score's peak beside it, if the fine
-/// score reaches as far. To a fraction of a step. Zero if there are no edges.
+/// Number of depth edge pixels at different places of the image. A camera at rest repeats its
+/// edges, which count once.
+int NumDistinctEdges(const EdgeAlignment& alignment);
+
+/// Peak of the coarse score. Its shift is that of the fine score's peak beside it; it stays that of
+/// the coarse score if the fine one does not reach as far, has less than half of the edges, or has
+/// no peak there. To a fraction of a step. Zero if there are no edges.
 EdgeShift FindPeak(const EdgeAlignment& alignment);
 
 }  // namespace msc_vo

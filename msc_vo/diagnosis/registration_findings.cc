@@ -16,9 +16,9 @@ namespace {
 
 // Edge pixels in all images that a verdict needs.
 constexpr int kMinEdges = 2000;
-// Height of the peak over the background, standard deviations of the gradient; below this the scene
-// has depth edges that the colour does not show. Images of different scenes reach 16 / sqrt(edges).
-constexpr double kMinPeak = 0.25;
+// Height of the peak over the background for one distinct edge, standard deviations of the
+// gradient; it falls with the square root of their number. Below this the scene has depth edges
+// that the colour does not show. Chosen by measurement, see docs/lab/depth.md.
 constexpr double kMinPeakOfOneEdge = 25.0;
 // Largest usual shift, pixels at an image width of 640.
 constexpr double kMaxShift = 5.0;
@@ -43,13 +43,14 @@ const char* Name(Mirroring mirroring) {
 }
 
 // Returns true if the images are mirrored.
-bool AddMirroring(const EdgeAlignment& sum, const EdgeShift& peak, Findings* findings) {
+bool AddMirroring(const EdgeAlignment& sum, const EdgeShift& peak, double min_peak,
+                  Findings* findings) {
   int best = 0;
   for (int m = 1; m < kNumMirrorings; ++m) {
     if (sum.mirrored_score[m] > sum.mirrored_score[best]) best = m;
   }
   const double mirrored = sum.mirrored_score[best] / sum.coarse.num_edges;
-  if (best == 0 || mirrored < kMinPeak || mirrored < kMirroredGain * peak.peak) return false;
+  if (best == 0 || mirrored < min_peak || mirrored < kMirroredGain * peak.peak) return false;
   findings->push_back(
       Error("registration.mirrored",
             FormatText("the colour images are %s with respect to the depth images: depth edges "
@@ -80,13 +81,16 @@ void AddRegistrationFindings(const std::vector<EdgeAlignment>& images, int width
   for (const EdgeAlignment& image : images) Add(image, &sum);
   const EdgeShift peak = FindPeak(sum);
   const int num_edges = sum.coarse.num_edges;
-  if (num_edges >= kMinEdges && AddMirroring(sum, peak, findings)) return;
-  const double min_peak = std::min(kMinPeak, kMinPeakOfOneEdge / std::sqrt(num_edges));
+  const int num_distinct = NumDistinctEdges(sum);
+  const double min_peak = kMinPeakOfOneEdge / std::sqrt(std::max(1, num_distinct));
+  if (num_edges >= kMinEdges && AddMirroring(sum, peak, min_peak, findings)) return;
   if (num_edges < kMinEdges || peak.peak - peak.background < min_peak) {
-    findings->push_back(Good("registration.shift",
-                             FormatText("registration of depth to colour is not tested: too few "
-                                        "common edges (%d depth edge pixels, agreement %.2f)",
-                                        num_edges, peak.peak - peak.background)));
+    findings->push_back(
+        Good("registration.shift",
+             FormatText("registration of depth to colour is not tested: too few "
+                        "common edges (%d depth edge pixels, %d without repeated "
+                        "ones; agreement %.2f, needed %.2f)",
+                        num_edges, num_distinct, peak.peak - peak.background, min_peak)));
     return;
   }
   const double distance = peak.shift.norm();

@@ -14,24 +14,20 @@ namespace msc_vo {
 
 namespace {
 
-// Largest gap without depth, pixels, that an edge may span: the shadow of a structured-light
-// sensor.
-constexpr int kMaxGap = 10;
 // Least jump of inverse depth at an edge, 1/metres; the noise of a Kinect is 0.002.
 constexpr float kMinJump = 0.06f;
 // Gradients beyond this multiple of the mean count alike: one bright edge must not outweigh all.
 constexpr double kGradientLimit = 6.0;
-constexpr int kBorder = 4;
 
 // Edges along a line of `count` pixels: visit(pixel, far_side).
 template <typename At, typename Visit>
-void ScanLine(int count, const At& inverse_depth_at, const Visit& visit) {
+void ScanLine(int count, int max_gap, const At& inverse_depth_at, const Visit& visit) {
   int last = -1;
   float last_value = 0.0f;
   for (int i = 0; i < count; ++i) {
     const float value = inverse_depth_at(i);
     if (value <= 0.0f) continue;
-    if (last >= 0 && i - last <= kMaxGap && std::abs(value - last_value) > kMinJump) {
+    if (last >= 0 && i - last <= max_gap && std::abs(value - last_value) > kMinJump) {
       if (value > last_value) {
         visit(i, -1);
       } else {
@@ -57,7 +53,7 @@ cv::Mat Normalize(const cv::Mat& derivative) {
 
 }  // namespace
 
-std::vector<DepthEdge> FindDepthEdges(const cv::Mat& depth) {
+std::vector<DepthEdge> FindDepthEdges(const cv::Mat& depth, int max_gap) {
   cv::Mat inverse(depth.size(), CV_32FC1, cv::Scalar(0));
   for (int y = 0; y < depth.rows; ++y) {
     for (int x = 0; x < depth.cols; ++x) {
@@ -68,14 +64,14 @@ std::vector<DepthEdge> FindDepthEdges(const cv::Mat& depth) {
   std::vector<DepthEdge> edges;
   for (int y = 0; y < depth.rows; ++y) {
     ScanLine(
-        depth.cols, [&](int x) { return inverse.at<float>(y, x); },
+        depth.cols, max_gap, [&](int x) { return inverse.at<float>(y, x); },
         [&](int x, int far_side) {
           edges.push_back({x, y, true, far_side});
         });
   }
   for (int x = 0; x < depth.cols; ++x) {
     ScanLine(
-        depth.rows, [&](int y) { return inverse.at<float>(y, x); },
+        depth.rows, max_gap, [&](int y) { return inverse.at<float>(y, x); },
         [&](int y, int far_side) {
           edges.push_back({x, y, false, far_side});
         });
@@ -97,7 +93,8 @@ double SumAtEdges(const std::vector<DepthEdge>& edges, const EdgeGradients& grad
   double sum = 0.0;
   for (const DepthEdge& edge : edges) {
     const int x = edge.x + dx, y = edge.y + dy;
-    if (x < kBorder || y < kBorder || x >= width - kBorder || y >= height - kBorder) continue;
+    if (x < kEdgeBorder || y < kEdgeBorder || x >= width - kEdgeBorder || y >= height - kEdgeBorder)
+      continue;
     sum += (edge.horizontal_jump ? gradients.along_rows : gradients.along_columns).at<float>(y, x);
   }
   return sum;

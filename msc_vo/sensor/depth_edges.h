@@ -20,8 +20,16 @@ struct DepthEdge {
   int far_side = 0;
 };
 
-/// The edges of a depth image (CV_32FC1, metres; 0: no measurement).
-std::vector<DepthEdge> FindDepthEdges(const cv::Mat& depth);
+/// Largest distance of the pixels on both sides of an edge at an image width of 320 pixels: the
+/// shadow of a structured-light sensor is a gap without depth.
+constexpr int kMaxEdgeGap = 10;
+
+/// The edges of a depth image (CV_32FC1, metres; 0: no measurement). `max_gap`: largest distance of
+/// the pixels on both sides of an edge.
+std::vector<DepthEdge> FindDepthEdges(const cv::Mat& depth, int max_gap = kMaxEdgeGap);
+
+/// Gradients closer to the border of an image than this are not compared with depth edges, pixels.
+constexpr int kEdgeBorder = 4;
 
 /// Gradients of a grey image along rows and along columns, with mean 0 and standard deviation 1.
 struct EdgeGradients {

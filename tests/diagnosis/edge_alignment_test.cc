@@ -48,6 +48,36 @@ BoxImage MakeBoxes(const cv::Size& size, const Eigen::Vector2d& shift) {
   return image;
 }
 
+// A rectangle at another depth than its surroundings. Lengths are fractions of the image.
+struct Rectangle {
+  double left = 0.0, top = 0.0, right = 0.0, bottom = 0.0;
+  float depth = 0.0f;
+  int gray = 0;
+};
+
+// Rectangles with all four edges in the image, in front of a wall at 2 metres or behind it: the far
+// side of their edges is on either side. `gap`: pixels without depth on the farther surface, to the
+// right of the nearer one.
+BoxImage MakeRectangles(const cv::Size& size, int gap, double noise) {
+  BoxImage image{cv::Mat(size, CV_8UC1, cv::Scalar(120)), cv::Mat(size, CV_32FC1, cv::Scalar(2))};
+  for (const Rectangle& r :
+       {Rectangle{0.10, 0.12, 0.26, 0.45, 1.2f, 40}, Rectangle{0.36, 0.15, 0.57, 0.40, 4.0f, 200},
+        Rectangle{0.68, 0.10, 0.88, 0.48, 1.5f, 190}, Rectangle{0.15, 0.60, 0.41, 0.85, 3.5f, 30},
+        Rectangle{0.53, 0.58, 0.83, 0.88, 1.0f, 210}}) {
+    const cv::Rect area(cv::Point(cvRound(r.left * size.width), cvRound(r.top * size.height)),
+                        cv::Point(cvRound(r.right * size.width), cvRound(r.bottom * size.height)));
+    image.gray(area).setTo(r.gray);
+    image.depth(area).setTo(r.depth);
+    const int shadow = r.depth < 2.0f ? area.x + area.width : area.x;
+    if (gap > 0) image.depth(cv::Rect(shadow, area.y, gap, area.height)).setTo(0.0f);
+  }
+  cv::RNG random(1);
+  for (auto gray = image.gray.begin<uint8_t>(); gray != image.gray.end<uint8_t>(); ++gray) {
+    *gray = cv::saturate_cast<uint8_t>(*gray + random.gaussian(noise));
+  }
+  return image;
+}
+
 Eigen::Vector2d FoundShift(const BoxImage& image) {
   return FindPeak(AlignEdges(image.gray, image.depth, false)).shift;
 }
@@ -57,6 +87,27 @@ class EdgeAlignmentTest : public testing::TestWithParam<cv::Size> {};
 TEST_P(EdgeAlignmentTest, FindsNoShiftOfRegisteredDepth) {
   const Eigen::Vector2d found = FoundShift(MakeBoxes(GetParam(), {0.0, 0.0}));
   EXPECT_LT(found.norm(), 0.3) << found.transpose();
+}
+
+// Bound of the shift that is found for registered depth: half a step if the images are reduced to
+// 640 pixels, because depth is sampled then.
+double Tolerance(int width) { return width > 640 ? 0.5 * width / 640.0 : 0.1; }
+
+TEST_P(EdgeAlignmentTest, FindsNoShiftOfRectanglesInFrontOfAndBehindAWall) {
+  const double tolerance = Tolerance(GetParam().width);
+  for (const double noise : {0.0, 0.5, kNoise}) {
+    const Eigen::Vector2d found = FoundShift(MakeRectangles(GetParam(), 0, noise));
+    EXPECT_LT(found.norm(), tolerance) << found.transpose() << " with noise " << noise;
+  }
+}
+
+TEST_P(EdgeAlignmentTest, FindsNoShiftBesideTheShadowOfTheSensor) {
+  const int width = GetParam().width;
+  for (const int gap : {2, 8, 12, 16, 18}) {
+    const Eigen::Vector2d found =
+        FoundShift(MakeRectangles(GetParam(), gap * std::max(320, width) / 640, 2.0));
+    EXPECT_LT(found.norm(), Tolerance(width)) << found.transpose() << " with a gap of " << gap;
+  }
 }
 
 TEST_P(EdgeAlignmentTest, FindsTheShiftOfDepth) {
@@ -75,6 +126,37 @@ TEST_P(EdgeAlignmentTest, FindsALargeShiftToAStep) {
   const Eigen::Vector2d found = FoundShift(MakeBoxes(GetParam(), shift));
   EXPECT_LT((found + shift).norm(), std::max(1.0, width / 320.0))
       << found.transpose() << " for " << shift.transpose();
+}
+
+// Sum of `count` images, each shifted by `step` pixels against the one before.
+EdgeAlignment SumOfImages(int count, int step) {
+  const BoxImage image = MakeRectangles({640, 480}, 0, 0.0);
+  EdgeAlignment sum;
+  for (int i = 0; i < count; ++i) {
+    const cv::Rect view(i * step, i * step, 480, 360);
+    Add(AlignEdges(image.gray(view), image.depth(view), false), &sum);
+  }
+  return sum;
+}
+
+TEST(NumDistinctEdgesTest, CountsRepeatedEdgesOnce) {
+  const EdgeAlignment one = SumOfImages(1, 0), still = SumOfImages(10, 0);
+  EXPECT_EQ(NumDistinctEdges(one), one.coarse.num_edges);
+  EXPECT_EQ(still.coarse.num_edges, 10 * one.coarse.num_edges);
+  EXPECT_EQ(NumDistinctEdges(still), one.coarse.num_edges);
+}
+
+TEST(NumDistinctEdgesTest, CountsEdgesAtOtherPlaces) {
+  const EdgeAlignment moving = SumOfImages(10, 12);
+  EXPECT_GT(NumDistinctEdges(moving), 6 * NumDistinctEdges(SumOfImages(1, 0)));
+}
+
+TEST(FindPeakTest, StaysAtTheCoarsePeakWithoutFineEdges) {
+  EdgeAlignment alignment = SumOfImages(1, 0);
+  const Eigen::Vector2d expected = FindPeak(alignment).shift;
+  alignment.fine.num_edges = 0;
+  alignment.fine.sum.setTo(0.0);
+  EXPECT_LT((FindPeak(alignment).shift - expected).norm(), 0.3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, EdgeAlignmentTest,
