@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "msc_vo/geometry/angles.h"
+#include "msc_vo/results/calibrated_value.h"
 #include "msc_vo/sensor/depth_camera_correction.h"
 
 namespace msc_vo {
@@ -90,8 +91,7 @@ std::string VerdictOf(const Value& value, const CalibrationReport& report) {
   if (value.group == G::kDepthRegistration && report.edges_contradict) {
     return "kept: the edges contradict";
   }
-  return IsObservable(value.index, report.refinement.sigma(value.index)) ? "kept"
-                                                                         : "kept: not observable";
+  return KeptVerdict(IsObservable(value.index, report.refinement.sigma(value.index)));
 }
 
 std::vector<CalibrationRow> GroupedRows(const CalibrationReport& report) {

@@ -71,9 +71,8 @@ Trajectories ReadTrajectories(const EvaluateArguments& arguments) {
   return trajectories;
 }
 
-std::string SkippedRowsText(const std::string& path, int num_skipped) {
-  if (num_skipped == 0) return "";
-  return "skipped: " + std::to_string(num_skipped) + " rows of " + path + " with nan or inf\n";
+std::string LeftOutText(const std::string& path, const TrajectoryFile& trajectory) {
+  return trajectory.num_left_out == 0 ? "" : path + ": " + trajectory.DescribeLeftOut() + "\n";
 }
 
 TrajectoryError Evaluate(const EvaluateArguments& arguments, const Trajectories& trajectories,
@@ -93,8 +92,9 @@ TrajectoryError Evaluate(const EvaluateArguments& arguments, const Trajectories&
 int Run(EvaluateArguments arguments) {
   arguments.options.alignment = AlignmentFromString(arguments.alignment);
   arguments.options.rpe_delta.unit = DeltaUnits().at(arguments.delta_unit);
-  if (!arguments.options.rpe_delta.IsValid()) {
-    throw UsageError("--delta: must be a whole number of frames, not " +
+  const std::string problem = arguments.options.rpe_delta.Problem();
+  if (!problem.empty()) {
+    throw UsageError("--delta: " + problem + ", not " +
                      FormatNumber(arguments.options.rpe_delta.value) +
                      "; --delta-unit chooses metres or seconds");
   }
@@ -122,8 +122,7 @@ int Run(EvaluateArguments arguments) {
   } else {
     std::cout << FormatErrorTable(error, context)
               << FormatSegmentTable(segments, HasSeveralWorlds(estimate.poses))
-              << SkippedRowsText(arguments.truth, truth.num_left_out)
-              << SkippedRowsText(arguments.estimate, estimate.num_left_out);
+              << LeftOutText(arguments.truth, truth) << LeftOutText(arguments.estimate, estimate);
     if (line_error) std::cout << FormatLineTable(*line_error);
   }
   if (!arguments.plot.empty()) {

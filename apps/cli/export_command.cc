@@ -16,21 +16,21 @@ namespace {
 
 // Refuses options that would have no effect.
 void CheckOptions(const CLI::App& command, const RunExport& arguments) {
-  const auto refuse_but_for = [&](const char* option, bool has_effect) {
+  const auto refuse_unless = [&](const char* option, bool has_effect) {
     if (command.get_option(option)->count() == 0 || has_effect) return;
     throw UsageError(std::string(option) + " has no effect on the format " + arguments.format +
                      "; leave it out");
   };
   const bool is_map = IsMapFormat(arguments.format);
-  refuse_but_for("--every", !is_map);
-  refuse_but_for("--all-poses", !is_map);
-  refuse_but_for("--binary", arguments.format == "colmap");
-  refuse_but_for("--images", arguments.format == "mcap");
-  refuse_but_for("--map", arguments.format == "mcap");
+  refuse_unless("--every", !is_map);
+  refuse_unless("--all-poses", !is_map);
+  refuse_unless("--binary", arguments.format == "colmap");
+  refuse_unless("--images", arguments.format == "mcap");
+  refuse_unless("--map", arguments.format == "mcap");
   const std::string problem = CheckPlyFileName(arguments.output);
   if (arguments.format == "ply" && !problem.empty()) throw UsageError("output: " + problem);
   for (const char* option : {"--voxel", "--max-depth", "--min-observations", "--max-memory"}) {
-    refuse_but_for(option, arguments.format == "ply");
+    refuse_unless(option, arguments.format == "ply");
   }
 }
 

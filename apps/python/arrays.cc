@@ -199,8 +199,9 @@ cv::Mat DepthArgument(py::handle value, py::handle depth_scale, const std::strin
   }
   CheckImage(array, name);
   if (is_metric) {
-    if (!depth_scale.is_none())
+    if (!depth_scale.is_none()) {
       FailArgument(name, "depth_scale is for uint16; float32 is in metres");
+    }
     return ImageOf(array, value, CV_32FC1);
   }
   if (depth_scale.is_none()) {

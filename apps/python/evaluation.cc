@@ -65,16 +65,6 @@ TrajectoryFile TrajectoryArgument(const py::object& value, const std::string& na
   return trajectory;
 }
 
-// Adds a warning about rows that are not finite.
-void WarnOfSkippedRows(const TrajectoryFile& trajectory, const std::string& name,
-                       std::vector<std::string>* warnings) {
-  if (trajectory.num_left_out == 0) return;
-  warnings->push_back(trajectory.num_left_out == 1
-                          ? name + ": 1 row with nan or inf is left out"
-                          : FormatText("%s: %d rows with nan or inf are left out", name.c_str(),
-                                       trajectory.num_left_out));
-}
-
 DeltaUnit UnitArgument(const std::string& name) {
   if (name == "frames") return DeltaUnit::kFrames;
   if (name == "metres") return DeltaUnit::kMetres;
@@ -85,13 +75,10 @@ DeltaUnit UnitArgument(const std::string& name) {
 
 void RequireValid(const EvaluationOptions& options) {
   if (!(options.max_time_difference >= 0.0)) {
-    throw std::invalid_argument("max_dt: must not be negative");
+    FailArgument("max_dt", "must not be negative or nan");
   }
-  if (!options.rpe_delta.IsValid()) {
-    throw std::invalid_argument(options.rpe_delta.unit == DeltaUnit::kFrames
-                                    ? "rpe_delta: must be a whole number of frames, 1 or more"
-                                    : "rpe_delta: must be positive");
-  }
+  const std::string problem = options.rpe_delta.Problem();
+  if (!problem.empty()) FailArgument("rpe_delta", problem);
 }
 
 TrajectoryError EvaluatePoses(const py::object& gt, const py::object& est, const std::string& align,
@@ -106,8 +93,8 @@ TrajectoryError EvaluatePoses(const py::object& gt, const py::object& est, const
   TrajectoryFile reference = TrajectoryArgument(gt, "gt");
   TrajectoryFile estimate = TrajectoryArgument(est, "est");
   std::vector<std::string> warnings;
-  WarnOfSkippedRows(reference, "gt", &warnings);
-  WarnOfSkippedRows(estimate, "est", &warnings);
+  if (reference.num_left_out > 0) warnings.push_back("gt: " + reference.DescribeLeftOut());
+  if (estimate.num_left_out > 0) warnings.push_back("est: " + estimate.DescribeLeftOut());
   ConvertToSeconds("gt", "est", &reference, &estimate, &warnings);
   ShareStamps("gt", "est", &reference, &estimate);
   TrajectoryError error = EvaluateTrajectory(reference.poses, estimate.poses, options);
@@ -219,13 +206,12 @@ void BindEvaluation(py::module_* module) {
       py::arg("rpe_delta") = 1.0, py::arg("rpe_unit") = "frames", py::arg("rpe_all_pairs") = false,
       "Compares trajectories: a file, an (N, 8) array of rows t tx ty tz qx qy qz qw, or a Result. "
       "Rows with nan or inf are left out, and stamps in milliseconds, microseconds or nanoseconds "
-      "are "
-      "converted, both with a warning. "
+      "are converted, both with a warning. "
       "align: 'se3' (Umeyama), 'sim3' (with scale), 'origin' (first poses) or 'none'. max_dt: "
       "seconds. rpe_delta, rpe_unit ('frames', 'metres', 'seconds'), rpe_all_pairs: the pairs of "
       "TrajectoryError.rpe, as --delta, --delta-unit and --all-pairs of `msc_vo evaluate`. "
-      "Raises ValueError if fewer than three poses match or the alignment has no scale, and warns "
-      "of what is in TrajectoryError.warnings.");
+      "Raises ValueError if fewer than three poses match or the alignment has no scale. Each of "
+      "TrajectoryError.warnings is issued as a Python warning, too.");
 }
 
 }  // namespace msc_vo

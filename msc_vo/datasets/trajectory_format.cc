@@ -144,6 +144,12 @@ std::optional<TrajectoryFormat> TrajectoryFormatFromName(const std::string& name
   return std::nullopt;
 }
 
+std::string TrajectoryFile::DescribeLeftOut() const {
+  if (num_left_out == 0) return "";
+  return num_left_out == 1 ? "1 row with nan or inf is left out"
+                           : FormatText("%d rows with nan or inf are left out", num_left_out);
+}
+
 TrajectoryFile ReadTrajectoryFile(const std::string& path, std::optional<TrajectoryFormat> format) {
   if (format == TrajectoryFormat::kKitti) return ReadKitti(ReadTextLines(path));
   const PoseRows rows = ReadPoseRows(path, format.has_value());

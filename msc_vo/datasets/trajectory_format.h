@@ -38,6 +38,9 @@ struct TrajectoryFile {
   std::optional<TimeUnit> unit;
   std::vector<TimedPose> poses;  ///< world_from_cam, in order of time
   int num_left_out = 0;          ///< rows with nan or inf
+
+  /// "2 rows with nan or inf are left out"; empty if none is.
+  std::string DescribeLeftOut() const;
 };
 
 /// Reads a trajectory in the given format. Without one, a header decides which columns hold time,

@@ -111,10 +111,7 @@ void ReadGroundTruthFile(const std::string& path, WholeStamps whole, SequenceInd
   }
   index->ground_truth = std::move(file.poses);
   const std::string name = fs::path(path).filename().string();
-  if (file.num_left_out > 0) {
-    index->warnings.push_back(name + ": " + std::to_string(file.num_left_out) +
-                              " poses with nan or inf are left out");
-  }
+  if (file.num_left_out > 0) index->warnings.push_back(name + ": " + file.DescribeLeftOut());
   if (file.unit) return;
   const TimeRange images =
       RangeOf(StampsOf(index->entries, &SequenceEntry::timestamp), index->stamp_unit);

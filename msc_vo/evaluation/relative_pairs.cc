@@ -58,9 +58,10 @@ Pairs PairsByValue(const std::vector<double>& values, double delta, double toler
 
 }  // namespace
 
-bool RelativeDelta::IsValid() const {
-  if (unit != DeltaUnit::kFrames) return value > 0.0;
-  return value >= 1.0 && value <= 1e9 && value == std::floor(value);
+std::string RelativeDelta::Problem() const {
+  if (unit != DeltaUnit::kFrames) return value > 0.0 ? "" : "must be positive";
+  const bool is_count = value >= 1.0 && value <= 1e9 && value == std::floor(value);
+  return is_count ? "" : "must be a whole number of frames, 1 or more";
 }
 
 std::vector<double> PathLengths(const std::vector<Eigen::Vector3d>& positions) {

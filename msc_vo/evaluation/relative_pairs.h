@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -21,8 +22,9 @@ struct RelativeDelta {
   /// at every pose.
   bool all_pairs = false;
 
-  /// Whether `value` is positive, and whole and at most 1e9 if it counts frames.
-  bool IsValid() const;
+  /// What `value` must be and is not: positive, and whole and at most 1e9 if it counts frames.
+  /// Empty if it is valid.
+  std::string Problem() const;
 };
 
 /// Returns the pairs of indices (i, j), i < j, of poses that are `delta` apart.

@@ -293,8 +293,8 @@ bool EvaluationOptions::IsValid(std::string* error) const {
     *error = "evaluation: max_time_difference must not be negative";
   } else if (!(rpe_seconds > 0.0) || !(rpe_metres > 0.0)) {
     *error = "evaluation: rpe_seconds and rpe_metres must be positive";
-  } else if (!rpe_delta.IsValid()) {
-    *error = "evaluation: rpe_delta must be positive, and a whole number of frames";
+  } else if (const std::string problem = rpe_delta.Problem(); !problem.empty()) {
+    *error = "evaluation: rpe_delta " + problem;
   } else {
     return true;
   }

@@ -106,8 +106,8 @@ TrajectoryError EvaluateTrajectory(const std::vector<TimedPose>& reference,
                                    const EvaluationOptions& options = {});
 
 /// What to do about a result that is not usable: "--all-poses compares them" if poses were left
-/// out, a question about the clock if few match. Empty if nothing helps. `all_poses`: the name that
-/// the user knows EvaluationOptions::all_poses by.
+/// out, a question about the clock if few match. Empty for other causes. `all_poses`: the name
+/// under which the user sets EvaluationOptions::all_poses.
 std::string DescribeRemedy(const TrajectoryError& error, const std::string& all_poses);
 
 /// Aligns orientations: the rotation minimises the sum of squares of R Q_estimate - Q_reference,

@@ -10,6 +10,10 @@
 
 namespace msc_vo {
 
+const char* KeptVerdict(bool is_observable) {
+  return is_observable ? "kept" : "kept: not observable";
+}
+
 std::vector<CalibratedValue> ListCalibratedValues(const RunSummary& summary) {
   using G = CorrectionGroup;
   using S = SensorCorrection;
@@ -29,9 +33,7 @@ std::vector<CalibratedValue> ListCalibratedValues(const RunSummary& summary) {
         is_estimated ? std::abs(scale) * sigma : std::numeric_limits<double>::infinity(),
         estimate.log_odds[g],
         estimate.is_corrected[g],
-        estimate.is_corrected[g] ? "corrected"
-        : is_observable          ? "kept"
-                                 : "kept: not observable"};
+        estimate.is_corrected[g] ? "corrected" : KeptVerdict(is_observable)};
   };
   const auto& k = intrinsics.distortion.k;
   const PinholeCamera& depth = summary.depth_camera.camera;

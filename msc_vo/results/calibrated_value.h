@@ -17,9 +17,12 @@ struct CalibratedValue {
   double sigma = 0.0;     ///< standard deviation of the estimate; infinite if there was none
   double log_odds = 0.0;  ///< of the calibration to be wrong in the group of the value
   bool is_corrected = false;
-  /// "corrected", "kept", or "kept: not observable", as `msc_vo calibrate` says.
+  /// "corrected", or KeptVerdict().
   const char* verdict;
 };
+
+/// The verdict on a value that is not corrected: "kept", or "kept: not observable".
+const char* KeptVerdict(bool is_observable);
 
 /// The calibration in use at the end of a run, with the standard deviations that self-calibration
 /// gives to its values.

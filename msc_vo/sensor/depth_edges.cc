@@ -93,8 +93,8 @@ double SumAtEdges(const std::vector<DepthEdge>& edges, const EdgeGradients& grad
   double sum = 0.0;
   for (const DepthEdge& edge : edges) {
     const int x = edge.x + dx, y = edge.y + dy;
-    if (x < kEdgeBorder || y < kEdgeBorder || x >= width - kEdgeBorder || y >= height - kEdgeBorder)
-      continue;
+    if (x < kEdgeBorder || x >= width - kEdgeBorder) continue;
+    if (y < kEdgeBorder || y >= height - kEdgeBorder) continue;
     sum += (edge.horizontal_jump ? gradients.along_rows : gradients.along_columns).at<float>(y, x);
   }
   return sum;

@@ -56,10 +56,10 @@ TEST(RelativePairs, SelectsSeconds) {
 
 TEST(RelativeDelta, IsPositiveAndCountsWholeFrames) {
   for (const DeltaUnit unit : {DeltaUnit::kFrames, DeltaUnit::kMetres, DeltaUnit::kSeconds}) {
-    EXPECT_TRUE((RelativeDelta{2.0, unit}.IsValid()));
-    EXPECT_EQ((RelativeDelta{1.5, unit}.IsValid()), unit != DeltaUnit::kFrames);
+    EXPECT_EQ((RelativeDelta{2.0, unit}.Problem()), "");
+    EXPECT_EQ((RelativeDelta{1.5, unit}.Problem().empty()), unit != DeltaUnit::kFrames);
     for (const double value : {0.0, -1.0, std::nan("")}) {
-      EXPECT_FALSE((RelativeDelta{value, unit}.IsValid())) << value;
+      EXPECT_NE((RelativeDelta{value, unit}.Problem()), "") << value;
     }
   }
 }
