@@ -21,7 +21,7 @@ options=(-DCMAKE_BUILD_TYPE=Release)
 if [[ ! -f build/CMakeCache.txt ]]; then options+=(-DCMAKE_UNITY_BUILD=ON); fi
 cmake -S . -B build -G Ninja "${options[@]}"
 targets=(msc_vo_command)
-if cmake --build build --target help | grep --quiet '^msc_vo_fusion:'; then
+if [[ $(cmake --build build --target help) == *msc_vo_fusion:* ]]; then
   targets+=(msc_vo_fusion)
 fi
 cmake --build build --parallel "$jobs" --target "${targets[@]}"

@@ -5,11 +5,21 @@ include(CMakePackageConfigHelpers)
 include(MscVoInstallDocs)
 set(MSC_VO_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/msc_vo)
 
+# Sets `out` to the path from one folder of the installation to another one. Each is absolute or relative
+# to the prefix.
+function(msc_vo_installed_path out from to)
+  foreach(folder from to)
+    cmake_path(ABSOLUTE_PATH ${folder} BASE_DIRECTORY ${CMAKE_INSTALL_PREFIX} NORMALIZE)
+  endforeach()
+  file(RELATIVE_PATH path ${from} ${to})
+  set(${out} ${path} PARENT_SCOPE)
+endfunction()
+
 # Lets a target that is installed to `destination` find shared libraries of msc_vo, wherever all are
 # installed to.
 function(msc_vo_find_libraries_from target destination)
   if(BUILD_SHARED_LIBS)
-    file(RELATIVE_PATH libraries /${destination} /${CMAKE_INSTALL_LIBDIR})
+    msc_vo_installed_path(libraries ${destination} ${CMAKE_INSTALL_LIBDIR})
     set_target_properties(${target} PROPERTIES INSTALL_RPATH $ORIGIN/${libraries})
   endif()
 endfunction()
@@ -73,16 +83,20 @@ function(msc_vo_install)
   endforeach()
   install(FILES ${PROJECT_BINARY_DIR}/include/msc_vo/version.h
           DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/msc_vo COMPONENT development)
-  msc_vo_install_documents()
+  if(PROJECT_IS_TOP_LEVEL)
+    msc_vo_install_documents()  # in a folder that has the name of the whole project
+  endif()
 
   get_property(all GLOBAL PROPERTY MSC_VO_COMPONENTS)
   set(MSC_VO_COMPONENT_TABLE "set(msc_vo_all_components ${all})\n")
   foreach(component ${all})
     get_property(components GLOBAL PROPERTY MSC_VO_COMPONENTS_OF_${component})
     get_property(packages GLOBAL PROPERTY MSC_VO_PACKAGES_OF_${component})
+    get_property(libraries GLOBAL PROPERTY MSC_VO_LIBRARIES_OF_${component})
     string(APPEND MSC_VO_COMPONENT_TABLE
            "set(msc_vo_components_of_${component} \"${components}\")\n"
-           "set(msc_vo_packages_of_${component} \"${packages}\")\n")
+           "set(msc_vo_packages_of_${component} \"${packages}\")\n"
+           "set(msc_vo_libraries_of_${component} \"${libraries}\")\n")
   endforeach()
   configure_package_config_file(
     ${PROJECT_SOURCE_DIR}/cmake/msc_voConfig.cmake.in ${PROJECT_BINARY_DIR}/msc_voConfig.cmake
@@ -128,7 +142,14 @@ function(msc_vo_pkg_config component description)
   list(JOIN requires ", " PC_REQUIRES)
   list(JOIN libraries " " PC_LIBRARIES)
   list(JOIN others " " PC_OTHERS)
-  file(RELATIVE_PATH PC_PREFIX /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)  # may be moved as a whole
+  # From the file itself, so that the installation may be moved as a whole.
+  set(file_folder ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+  msc_vo_installed_path(PC_INCLUDES ${file_folder} ${CMAKE_INSTALL_INCLUDEDIR})
+  msc_vo_installed_path(PC_LIBRARY_FOLDER ${file_folder} ${CMAKE_INSTALL_LIBDIR})
+  set(PC_OPTIONS "")
+  if(MSC_VO_NATIVE)
+    set(PC_OPTIONS " -march=native")
+  endif()
   set(PC_COMPONENT ${component})
   set(PC_DESCRIPTION ${description})
   configure_file(${PROJECT_SOURCE_DIR}/cmake/msc_vo.pc.in

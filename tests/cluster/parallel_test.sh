@@ -2,7 +2,7 @@
 # The line for GNU parallel in docs/cluster.md: parallel_test.sh MSC_VO SOURCE_DIR. Exit status 77: skipped.
 command=$1
 source_dir=$2
-if ! parallel --version 2> /dev/null | grep --quiet "GNU parallel"; then
+if [[ $(parallel --version 2> /dev/null) != *"GNU parallel"* ]]; then
   echo "skipped: GNU parallel is not installed"
   exit 77
 fi

@@ -119,7 +119,8 @@ class Packaging(unittest.TestCase):
 
         before = state()
         self.wheel("--config-settings", f"build-dir={self.folder / 'kept'}",
-                   "--config-settings", "cmake-args=-DMSC_VO_NATIVE=ON -DX='a b'")
+                   "--config-settings", "cmake-args=-DMSC_VO_NATIVE=ON",
+                   "--config-settings", "cmake-args=-DX='a b'")
         log = (self.folder / "log").read_text()
         self.assertRegex(log, r"-DMSC_VO_PYTHON_EXECUTABLE=\S*python")
         self.assertIn(f"-B {self.folder / 'kept'}", log)
@@ -135,6 +136,8 @@ class Packaging(unittest.TestCase):
             return done.stdout + done.stderr
 
         self.assertIn("unknown setting 'build-folder'", failure("--config-settings", "build-folder=x"))
+        self.assertIn("build-dir is given more than once",
+                      failure("--config-settings", "build-dir=x", "--config-settings", "build-dir=y"))
         self.write_stand_in(False)
         self.assertIn("pybind11-dev", failure())
         (self.folder / "bin" / "cmake").write_text("#!/bin/sh\nexit 3\n")

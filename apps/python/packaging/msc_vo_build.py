@@ -35,14 +35,19 @@ def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
-    settings = {name: value for name, value in (config_settings or {}).items()}
+    settings = dict(config_settings or {})
     unknown = set(settings) - {"build-dir", "cmake-args"}
     if unknown:
         raise SystemExit(f"unknown setting {sorted(unknown)[0]!r}: give build-dir or cmake-args")
+    # pip gives a list of a setting that occurs several times.
+    if isinstance(settings.get("build-dir"), list):
+        raise SystemExit("build-dir is given more than once")
+    arguments = settings.get("cmake-args", "")
+    arguments = shlex.split(" ".join(arguments) if isinstance(arguments, list) else arguments)
     with tempfile.TemporaryDirectory() as scratch:
         build = os.path.abspath(settings.get("build-dir") or os.path.join(scratch, "build"))
         package = build_package(pathlib.Path(build), pathlib.Path(scratch, "install"),
-                                shlex.split(settings.get("cmake-args", "")))
+                                arguments)
         return wheel.write(ROOT, package, pathlib.Path(wheel_directory))
 
 
