@@ -57,10 +57,10 @@ double RollingLogOdds(double estimate, double variance) {
 
 void ReadoutTimeEstimator::Update(const Map& map, KeyframeId newest,
                                   const std::optional<double>& frame_interval) {
-  auto covisible = map.FindCovisible(newest);
-  covisible.resize(std::min(covisible.size(), kMaxPartners));
   std::vector<const Keyframe*> partners;
-  for (const Map::Covisible& other : covisible) {
+  for (const Map::Covisible& other : map.FindCovisible(newest)) {
+    if (partners.size() == kMaxPartners) break;
+    if (map.IsOfEarlierSession(other.keyframe)) continue;
     partners.push_back(map.FindKeyframe(other.keyframe));
   }
   Update(*map.FindKeyframe(newest), partners, frame_interval);

@@ -55,11 +55,22 @@ bool IsInFront(const Map& map, const PointLandmark& point, KeyframeId keyframe) 
   return (map.CamFromWorld(keyframe) * point.position).z() > kMinCameraDepth;
 }
 
+// The observations of a point by keyframes of this run: those of earlier sessions may be of another
+// camera.
+std::vector<Observation> ObservationsOfThisRun(const Map& map, const PointLandmark& point) {
+  std::vector<Observation> observations;
+  for (const Observation& observation : point.observations) {
+    if (!map.IsOfEarlierSession(observation.keyframe)) observations.push_back(observation);
+  }
+  return observations;
+}
+
 // The points with most observations, in order of their ids.
 std::vector<LandmarkId> SelectPoints(const Map& map, size_t max_observations) {
   std::vector<std::pair<size_t, LandmarkId>> ranked;
   for (const auto& [id, point] : map.points()) {
-    if (point.observations.size() >= 2) ranked.emplace_back(point.observations.size(), id);
+    const size_t count = ObservationsOfThisRun(map, point).size();
+    if (count >= 2) ranked.emplace_back(count, id);
   }
   std::stable_sort(ranked.begin(), ranked.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
@@ -78,7 +89,8 @@ std::vector<LandmarkId> SelectPoints(const Map& map, size_t max_observations) {
 std::set<KeyframeId> SelectKeyframes(const Map& map, const std::vector<LandmarkId>& points) {
   std::map<KeyframeId, int> counts;
   for (const LandmarkId id : points) {
-    for (const Observation& observation : map.Find<PointLandmark>(id)->observations) {
+    for (const Observation& observation :
+         ObservationsOfThisRun(map, *map.Find<PointLandmark>(id))) {
       ++counts[observation.keyframe];
     }
   }

@@ -145,6 +145,19 @@ TEST(ReadoutTimeEstimator, IsBoundedByTheFrameInterval) {
   EXPECT_LT(EstimateOverKeyframes(0.045, std::nullopt, 60.0, 80), 0.022);
 }
 
+// Keyframes of an earlier session, with the shutter of another camera, observe all landmarks.
+TEST(ReadoutTimeEstimator, LeavesEarlierSessionsOut) {
+  RollingFrames other(0.0, 0.5), world(kReadoutTime, 0.5);
+  Map map;
+  for (int index = 0; index < 3; ++index) AddKeyframe(&other, index, &map);
+  map.BeginSession();
+  ReadoutTimeEstimator readout(std::nullopt);
+  for (int index = 3; index < 15; ++index) {
+    readout.Update(map, AddKeyframe(&world, index, &map), 1.0 / 30.0);
+  }
+  EXPECT_NEAR(readout.readout_time(), kReadoutTime, 2e-3);
+}
+
 TEST(KeyframeRollingShutter, SkipsFramesWithoutVelocityAndSmallChanges) {
   RollingFrames world(kReadoutTime, 0.0);
   Map map;

@@ -3,6 +3,8 @@
 
 #include "msc_vo/self_calibration/self_calibrating_bundle_adjustment.h"
 
+#include <memory>
+
 #include "tests/support/simulated_camera.h"
 #include <gtest/gtest.h>
 
@@ -108,6 +110,27 @@ TEST_F(SelfCalibratingBundleAdjustmentTest, LeavesObservationsBehindTheCameraOut
                                  map.CamFromWorld(point.observations.front().keyframe).Inverse() *
                                      Eigen::Vector3d(0.0, 0.0, -1.0));
   EXPECT_TRUE(SelfCalibratingBundleAdjustment(*camera.given(), map, S::Vector::Zero()));
+}
+
+// Keyframes of earlier sessions, whose lens may be unknown, observe the same points.
+TEST_F(SelfCalibratingBundleAdjustmentTest, LeavesEarlierSessionsOut) {
+  S::Vector truth = S::Vector::Zero();
+  truth(S::kFocalLength) = -0.03;
+  Map map;
+  LandmarksByDescriptor landmarks;
+  SimulatedCamera other(S::Vector::Zero(), 3);
+  SimulatedCamera camera(truth, 3);
+  for (int k = 0; k < 12; ++k) {
+    const Rigid3 cam_from_world = SimulatedCamera::PoseOf(k);
+    const auto [recorded, depth] = (k < 4 ? other : camera).Record(cam_from_world);
+    if (k == 4) map.BeginSession();
+    const auto frame = std::make_shared<Frame>(*recorded);
+    if (k < 4) frame->intrinsics = nullptr;
+    Observe(map.AddKeyframe(frame, cam_from_world), &landmarks, &map);
+  }
+  const auto information = SelfCalibratingBundleAdjustment(*camera.given(), map, S::Vector::Zero());
+  ASSERT_TRUE(information);
+  EXPECT_NEAR(EstimateCorrections(*information, kColor).correction(S::kFocalLength), -0.03, 0.005);
 }
 
 TEST_F(SelfCalibratingBundleAdjustmentTest, IsTheSameEachTime) {
