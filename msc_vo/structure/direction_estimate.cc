@@ -107,6 +107,7 @@ std::vector<std::optional<DirectionEstimate>> EstimateDirections(const WindowDat
     fits.emplace_back(line.segment.Direction());
   }
   for (const WindowData::LineObservation& observation : window.line_observations) {
+    if (observation.rejected) continue;
     const size_t i = index.at(observation.line);
     AddObservation(window, observation, *poses.at(observation.keyframe), window.lines[i], &fits[i]);
   }
