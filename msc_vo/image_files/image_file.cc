@@ -19,12 +19,6 @@ namespace msc_vo {
 
 namespace {
 
-// A JPEG ends with the marker FF D9, which its compressed data cannot contain. Decoders fill the
-// missing part of a truncated file with grey.
-bool IsTruncatedJpeg(const std::string& bytes) {
-  return bytes.compare(0, 2, "\xFF\xD8") == 0 && bytes.rfind("\xFF\xD9") == std::string::npos;
-}
-
 // Decodes the kinds of images that nearly all sequences have; empty for others.
 cv::Mat DecodeCommonKind(const std::string& bytes, int mode) {
   if (mode == cv::IMREAD_UNCHANGED) {

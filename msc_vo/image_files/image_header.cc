@@ -49,8 +49,15 @@ std::optional<ImageSize> PngSize(const Bytes& bytes) {
   return MakeSize(bytes.Number(16, 4, ByteOrder::kBig), bytes.Number(20, 4, ByteOrder::kBig));
 }
 
-// The size is in the frame header, which follows segments of any length.
-std::optional<ImageSize> JpegSize(const Bytes& bytes) {
+bool IsFrameHeader(uint32_t marker) {
+  return marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
+}
+
+bool IsScanHeader(uint32_t marker) { return marker == 0xDA; }
+
+// The position of the first marker of a kind, not after the first scan. Segments of any length,
+// which may hold a whole preview, are skipped.
+std::optional<size_t> FindJpegMarker(const Bytes& bytes, bool (*is_searched)(uint32_t)) {
   size_t at = 2;
   while (true) {
     const auto fill = bytes.Number(at, 1, ByteOrder::kBig);
@@ -64,16 +71,18 @@ std::optional<ImageSize> JpegSize(const Bytes& bytes) {
       at += 2;
       continue;
     }
-    const bool is_frame =
-        *marker >= 0xC0 && *marker <= 0xCF && *marker != 0xC4 && *marker != 0xC8 && *marker != 0xCC;
-    if (is_frame) {
-      return MakeSize(bytes.Number(at + 7, 2, ByteOrder::kBig),
-                      bytes.Number(at + 5, 2, ByteOrder::kBig));
-    }
+    if (is_searched(*marker)) return at;
     const auto length = bytes.Number(at + 2, 2, ByteOrder::kBig);
     if (!length || *length < 2) return std::nullopt;
     at += 2 + *length;
   }
+}
+
+std::optional<ImageSize> JpegSize(const Bytes& bytes) {
+  const std::optional<size_t> at = FindJpegMarker(bytes, IsFrameHeader);
+  if (!at) return std::nullopt;
+  return MakeSize(bytes.Number(*at + 7, 2, ByteOrder::kBig),
+                  bytes.Number(*at + 5, 2, ByteOrder::kBig));
 }
 
 std::optional<ImageSize> BmpSize(const Bytes& bytes) {
@@ -186,6 +195,13 @@ std::optional<ImageSize> SizeInHeader(const std::string& content) {
   if (bytes.StartWith("RIFF") && bytes.Have(8, "WEBP")) return WebpSize(bytes);
   if (bytes.StartWith("P") && content.find_first_of("123456", 1) == 1) return PnmSize(content);
   return std::nullopt;
+}
+
+bool IsTruncatedJpeg(const std::string& content) {
+  const Bytes bytes(content);
+  if (!bytes.StartWith("\xFF\xD8")) return false;
+  const std::optional<size_t> scan = FindJpegMarker(bytes, IsScanHeader);
+  return !scan || content.find("\xFF\xD9", *scan) == std::string::npos;
 }
 
 bool IsPlausibleSize(const ImageSize& size, size_t num_bytes) {

@@ -15,6 +15,10 @@ namespace msc_vo {
 /// file.
 std::optional<ImageSize> SizeInHeader(const std::string& bytes);
 
+/// Tests whether a file is a JPEG without its end, the marker FF D9, which the compressed data
+/// cannot contain. Decoders fill the missing part with grey.
+bool IsTruncatedJpeg(const std::string& bytes);
+
 /// Tests whether an image of this size may be decoded from so many bytes. A few bytes can claim a
 /// size whose pixels fill the memory; no image of a camera is compressed that far.
 bool IsPlausibleSize(const ImageSize& size, size_t num_bytes);

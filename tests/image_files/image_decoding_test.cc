@@ -163,6 +163,14 @@ TEST(DecodeImage, GivesAnEmptyImageForDamage) {
     EXPECT_TRUE(DecodeImage(jpeg.substr(0, length), kGray).empty()) << length;
     EXPECT_TRUE(DecodeImage(jpeg.substr(0, length), cv::IMREAD_COLOR).empty()) << length;
   }
+  const char num_bytes[] = {static_cast<char>((jpeg.size() + 2) >> 8),
+                            static_cast<char>((jpeg.size() + 2) & 0xFF)};
+  const std::string preview = "\xFF\xE1" + std::string(num_bytes, 2) + jpeg;
+  const std::string with_preview = jpeg.substr(0, 2) + preview + jpeg.substr(2);
+  EXPECT_FALSE(DecodeImage(with_preview, kGray).empty());
+  for (size_t length = 0; length + 1 < with_preview.size(); ++length) {
+    EXPECT_TRUE(DecodeImage(with_preview.substr(0, length), kGray).empty()) << length;
+  }
   EXPECT_TRUE(DecodeImage("", cv::IMREAD_UNCHANGED).empty());
 }
 
