@@ -4,6 +4,7 @@
 // ICL-NUIM: a TUM-style folder whose stamps are frame numbers, depth first in its associations,
 // ground truth in *.gt.freiburg, and a camera with negative fy.
 
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -22,6 +23,13 @@ namespace msc_vo {
 
 namespace {
 
+// Distinguishes frame numbers from whole milliseconds: every nth frame is counted from 0 or 1,
+// while a clock begins anywhere and runs on by 20 ms or more between images.
+bool CountFromBegin(const std::vector<double>& stamps) {
+  const std::optional<double> step = CountingStep(stamps);
+  return step && *step < 20.0 && std::fmod(stamps.front(), *step) <= 1.0;
+}
+
 // Tests whether the association file names depth first and has frame numbers for stamps, which no
 // other data set does.
 bool HasIclNuimAssociations(const std::string& directory) {
@@ -34,7 +42,7 @@ bool HasIclNuimAssociations(const std::string& directory) {
     if (line.fields.size() != 4 || !stamp || line.fields[1].rfind("depth", 0) != 0) return false;
     stamps.push_back(*stamp);
   }
-  return AreFrameNumbers(stamps) && IsDepthFirst(lines);
+  return AreFrameNumbers(stamps) && CountFromBegin(stamps) && IsDepthFirst(lines);
 }
 
 // Requires properties of this data set only, because its camera is mirrored.

@@ -167,13 +167,13 @@ Certainty AreTimes(const std::vector<double>& numbers) {
   const double median = MedianInterval(numbers);
   if (numbers.size() < 3 || median < kMinMilliseconds) return Certainty::kNo;
   if (median > kMaxFrameStep) return Certainty::kYes;
-  if (!CountFrames(numbers)) {
+  const std::optional<double> step = CountingStep(numbers);
+  if (!step) {
     const bool is_regular = 2 * CountRegularSteps(numbers) + 1 >= numbers.size();
     return is_regular ? Certainty::kYes : Certainty::kNo;
   }
   // Every nth frame of a recording is counted from 0 or 1; a clock begins anywhere.
-  const double step = numbers[1] - numbers[0];
-  return std::fmod(numbers[0], step) > 1.0 ? Certainty::kYes : Certainty::kPossible;
+  return std::fmod(numbers[0], *step) > 1.0 ? Certainty::kYes : Certainty::kPossible;
 }
 
 // Whether the times do not ascend although a number before them does, such as a counter or the
@@ -216,21 +216,6 @@ std::optional<NameTimes> ReadTimes(const Candidate& candidate,
 }
 
 }  // namespace
-
-bool CountFrames(const std::vector<double>& numbers) {
-  std::vector<double> sorted = numbers;
-  std::sort(sorted.begin(), sorted.end());
-  double smallest = 0.0;
-  for (size_t i = 1; i < sorted.size(); ++i) {
-    const double step = sorted[i] - sorted[i - 1];
-    if (step <= 0.0) return false;
-    if (smallest == 0.0 || step < smallest) smallest = step;
-  }
-  for (size_t i = 1; i < sorted.size(); ++i) {
-    if (std::fmod(sorted[i] - sorted[i - 1], smallest) != 0.0) return false;
-  }
-  return true;
-}
 
 std::optional<NameTimes> FindTimes(const Names& names, const std::optional<TimeRange>& reference,
                                    std::vector<std::string>* warnings) {

@@ -23,10 +23,6 @@ struct NameTimes {
   size_t last_run = 0;
 };
 
-/// Returns the numbers of a column if they are whole, all different and count frames: all steps are
-/// multiples of the smallest one.
-bool CountFrames(const std::vector<double>& numbers);
-
 /// Finds the runs of digits that encode times, in names in natural order with equally many runs.
 /// The times are almost all different, at intervals that a camera may have, and ascend with the
 /// numbers before them. `reference` is the time range of the other stream, if it has one. Adds a

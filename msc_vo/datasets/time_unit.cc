@@ -19,13 +19,6 @@ constexpr TimeUnit kUnits[] = {TimeUnit::kSeconds, TimeUnit::kMilliseconds, Time
 // accelerometer is faster, and seconds at more than 4 Hz are not taken for milliseconds.
 constexpr double kMinInterval = 2.5e-4;
 
-// Intersection over union of two time ranges, 0..1.
-double Overlap(const TimeRange& a, const TimeRange& b) {
-  const double common = std::min(a.end, b.end) - std::max(a.begin, b.begin);
-  const double all = std::max(a.end, b.end) - std::min(a.begin, b.begin);
-  return all > 0.0 ? std::max(common, 0.0) / all : 1.0;
-}
-
 // The unit of stamps in which their median interval is plausible.
 TimeUnit GuessOwnUnit(const std::vector<double>& stamps, double max_interval) {
   if (stamps.empty()) return TimeUnit::kSeconds;
@@ -105,6 +98,26 @@ TimeUnit GuessTimeUnit(const std::vector<double>& stamps, const std::optional<Ti
     if (is_plausible && overlap > 0.5 && overlap > overlap_in(best)) best = unit;
   }
   return best;
+}
+
+double Overlap(const TimeRange& a, const TimeRange& b) {
+  const double common = std::min(a.end, b.end) - std::max(a.begin, b.begin);
+  const double all = std::max(a.end, b.end) - std::min(a.begin, b.begin);
+  return all > 0.0 ? std::max(common, 0.0) / all : 1.0;
+}
+
+std::optional<double> CountingStep(std::vector<double> numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  if (numbers.size() < 2) return 0.0;
+  double smallest = numbers[1] - numbers[0];
+  for (size_t i = 2; i < numbers.size(); ++i) {
+    smallest = std::min(smallest, numbers[i] - numbers[i - 1]);
+  }
+  for (const double number : numbers) {
+    if (std::fmod(number - numbers[0], smallest) != 0.0) return std::nullopt;
+  }
+  return smallest;
 }
 
 bool AreFrameNumbers(const std::vector<double>& stamps) {

@@ -46,6 +46,13 @@ TimeUnit GuessTimeUnit(const std::vector<double>& stamps,
                        const std::optional<TimeRange>& reference = std::nullopt,
                        double max_interval = kMaxPoseInterval);
 
+/// Returns the intersection over union of two time ranges, 0..1.
+double Overlap(const TimeRange& a, const TimeRange& b);
+
+/// Returns the step in which numbers, in any order, count: their smallest step, if all steps are
+/// multiples of it; 0 if all numbers are equal. None if they do not count.
+std::optional<double> CountingStep(std::vector<double> numbers);
+
 /// Tests whether the stamps may be frame numbers: whole numbers with steps of at most 60.
 bool AreFrameNumbers(const std::vector<double>& stamps);
 

@@ -80,5 +80,11 @@ TEST(GuessTimeUnit, PrefersUnitOfReference) {
   EXPECT_EQ(GuessTimeUnit({0, 1, 2, 9000}, images), TimeUnit::kMilliseconds);  // 1 kHz
 }
 
+TEST(CountingStep, IsSmallestStepIfItDividesAll) {
+  EXPECT_EQ(CountingStep({30, 0, 10, 10}), 10.0);
+  EXPECT_EQ(CountingStep({7, 7}), 0.0);
+  EXPECT_EQ(CountingStep({0, 33, 67}), std::nullopt);
+}
+
 }  // namespace
 }  // namespace msc_vo
