@@ -11,7 +11,9 @@ namespace msc_vo {
 
 /// Returns the frame with other intrinsics, and the depths that its features have in a depth image
 /// that is registered as these say. `image`: the one of the frame; `options`: those of the
-/// FrameBuilder. The sensor is determined from this image alone.
+/// FrameBuilder, with the sensor of the run: the image may be a reduced one, whose statistics are
+/// not those of the sensor. The reach of bleeding is that of this image, because it depends on the
+/// registration.
 /// Depth ranges are left out if the frame has dynamic features, whose surfaces must have none.
 std::shared_ptr<const Frame> MeasureDepthAgain(
     const FrameBuilderOptions& options, const RgbdImage& image, const Frame& frame,

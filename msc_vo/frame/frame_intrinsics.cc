@@ -79,7 +79,7 @@ std::shared_ptr<const Frame> ChangeIntrinsics(
   moved->intrinsics = intrinsics;
   moved->camera = intrinsics->camera;
   if (moved->lens) moved->lens = intrinsics->distortion;
-  if (intrinsics->registration && !from.registration) RemoveDepths(&*moved);
+  if (intrinsics->registration.has_value() != from.registration.has_value()) RemoveDepths(&*moved);
   // Planes that another registration has bent cannot be measured again without the depth image.
   if (!HasSameRegistration(*intrinsics, from)) moved->planes.clear();
   MovePlanes(from.camera, intrinsics->camera, &moved->planes);

@@ -13,8 +13,8 @@ namespace msc_vo {
 /// pixels of the same recorded ones. Returns the frame itself if it has these intrinsics already,
 /// if its own are unknown, or if `intrinsics` is null.
 ///
-/// Depths are removed if they were measured in images that `intrinsics` say are not registered;
-/// they remain if only the values of the registration differ.
+/// Depths are removed if only one of the two intrinsics has a registration: they were measured at
+/// other pixels. They remain if only the values of the registration differ.
 ///
 /// Lines are moved with their end points, which neglects the little that a wrong lens bends them;
 /// likewise rolling-shutter compensation keeps its displacements in pixels.

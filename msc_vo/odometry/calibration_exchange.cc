@@ -38,14 +38,17 @@ void CalibrationExchange::KeepImage(const TrackedFrame& tracked, const AlignedIm
     return;
   }
   last_image_time_ = timestamp;
-  kept_.push_back({tracked.frame, std::make_shared<RecordedImage>(cv::Mat(), image.aligned.depth),
-                   tracked.reference, tracked.cam_from_reference});
+  kept_.push_back(
+      {tracked.frame,
+       std::make_shared<RecordedImage>(cv::Mat(), image.aligned.depth, images_->depth_sensor()),
+       tracked.reference, tracked.cam_from_reference});
 }
 
 void CalibrationExchange::AddImages(const AlignedImage& image, const MapSnapshot& map,
                                     KeyframePacket* packet) {
   if (NeedsImages(map)) {
-    packet->image = std::make_shared<RecordedImage>(image.aligned.gray, image.aligned.depth);
+    packet->image = std::make_shared<RecordedImage>(image.aligned.gray, image.aligned.depth,
+                                                    images_->depth_sensor());
   }
   packet->calibration_images = std::exchange(kept_, {});
   last_image_time_ = packet->frame->timestamp;

@@ -74,8 +74,12 @@ DepthMeasurement DepthPreparation::MeasurementFor(const FrameBuilderOptions& opt
     RgbdImage registered;
     registered.gray = image.Gray();
     registered.recorded_depth = image.Depth();
-    registered.depth = FindRegistration(*given, *intrinsics)->Register(registered.recorded_depth);
-    return MeasureDepthAgain(options, registered, frame, intrinsics);
+    const auto registration = FindRegistration(*given, *intrinsics);
+    registered.depth = registration ? registration->Register(registered.recorded_depth)
+                                    : registered.recorded_depth;
+    FrameBuilderOptions of_image = options;
+    of_image.depth_sensor = image.sensor();
+    return MeasureDepthAgain(of_image, registered, frame, intrinsics);
   };
 }
 

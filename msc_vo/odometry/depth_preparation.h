@@ -36,7 +36,8 @@ class DepthPreparation {
   /// Returns the image with its depth registered to its colour image.
   RgbdImage Register(const RgbdImage& image) const;
 
-  /// How a mapper measures depths again that were not registered. `options`: those of the frames.
+  /// How a mapper measures depths again after a change of the registration. `options`: those of the
+  /// frames.
   DepthMeasurement MeasurementFor(const FrameBuilderOptions& options) const;
 
   /// Lists the state for a checkpoint. The intrinsics are set again.

@@ -57,7 +57,7 @@ class ImagePipeline {
   const CameraIntrinsics& given() const { return *preparation_.given(); }
   /// Replaces the calibration in use. Returns whether it has changed.
   bool UseIntrinsics(const std::shared_ptr<const CameraIntrinsics>& intrinsics);
-  /// How depths are measured again that were not registered.
+  /// How depths are measured again after a change of the registration.
   DepthMeasurement MeasurementOfDepth() const {
     return preparation_.MeasurementFor(options_.features);
   }

@@ -17,56 +17,60 @@ namespace {
 // Width of the images that are kept. Chosen by measurement, see docs/lab/self_calibration.md.
 constexpr double kReducedWidth = 320.0;
 
-// The pixels whose coordinates are multiples of the step.
-cv::Mat Subsample(const cv::Mat& depth, int step, const cv::Size& size) {
-  if (step == 1) return depth;
-  cv::Mat reduced(size, CV_32FC1);
-  for (int y = 0; y < size.height; ++y) {
-    const float* from = depth.ptr<float>(step * y);
-    float* to = reduced.ptr<float>(y);
-    for (int x = 0; x < size.width; ++x) to[x] = from[step * x];
-  }
-  return reduced;
-}
+// Largest change of depth within half the distance of kept pixels on one surface, as a ratio: that
+// at 60 degrees from the line of sight.
+constexpr double kMaxChange = 0.01;
 
-// An image of the full size.
-cv::Mat Enlarge(const cv::Mat& reduced, int step, const cv::Size& size) {
-  cv::Mat enlarged;
-  cv::resize(reduced, enlarged, {}, step, step, cv::INTER_NEAREST);
-  return enlarged(cv::Rect({0, 0}, size)).clone();
+// The image whose pixel (x, y) is that at (scale * x, scale * y).
+cv::Mat Resample(const cv::Mat& image, double scale, const cv::Size& size,
+                 cv::InterpolationFlags interpolation) {
+  const cv::Matx23d at(scale, 0.0, 0.0, 0.0, scale, 0.0);
+  cv::Mat resampled;
+  cv::warpAffine(image, resampled, at, size, interpolation | cv::WARP_INVERSE_MAP,
+                 cv::BORDER_REPLICATE);
+  return resampled;
 }
 
 }  // namespace
 
-RecordedImage::RecordedImage(const cv::Mat& gray, const cv::Mat& depth)
-    : size_(depth.size()),
+RecordedImage::RecordedImage(const cv::Mat& gray, const cv::Mat& depth, DepthSensor sensor)
+    : sensor_(sensor),
+      size_(depth.size()),
       step_(std::max(1, cvRound(depth.cols / kReducedWidth))),
       rows_((depth.rows + step_ - 1) / step_),
       columns_((depth.cols + step_ - 1) / step_),
       depth_(static_cast<size_t>(rows_) * columns_) {
-  if (!gray.empty()) {
-    gray_.resize(depth_.size());
-    cv::Mat reduced(rows_, columns_, CV_8UC1, gray_.data());
-    cv::resize(StandaloneImage(gray), reduced, reduced.size(), 0.0, 0.0, cv::INTER_AREA);
-  }
   if (depth_.empty()) return;
+  const cv::Size reduced(columns_, rows_);
+  if (!gray.empty()) {
+    const int window = step_ | 1;  // odd: centred on the kept pixel
+    cv::Mat mean;
+    cv::blur(StandaloneImage(gray), mean, {window, window});
+    gray_.resize(depth_.size());
+    Resample(mean, step_, reduced, cv::INTER_NEAREST)
+        .copyTo(cv::Mat(rows_, columns_, CV_8UC1, gray_.data()));
+  }
   cv::Mat units(rows_, columns_, CV_16UC1, depth_.data());
-  Subsample(depth, step_, units.size())
+  Resample(depth, step_, reduced, cv::INTER_NEAREST)
       .convertTo(units, CV_16UC1, kUnitsPerMetre);  // NaN becomes 0
   constexpr uint16_t kTooFar = std::numeric_limits<uint16_t>::max();
   units.setTo(0, units == kTooFar);
 }
 
 cv::Mat RecordedImage::Depth() const {
+  if (depth_.empty()) return {};
   cv::Mat metres;
-  if (depth_.empty()) return metres;
   cv::Mat(depth_).reshape(1, rows_).convertTo(metres, CV_32FC1, 1.0 / kUnitsPerMetre);
-  return Enlarge(metres, step_, size_);
+  if (step_ == 1) return metres;
+  cv::Mat depth = Resample(metres, 1.0 / step_, size_, cv::INTER_NEAREST);
+  const cv::Mat interpolated = Resample(metres, 1.0 / step_, size_, cv::INTER_LINEAR);
+  interpolated.copyTo(depth, cv::abs(interpolated - depth) <= kMaxChange * depth);
+  return depth;
 }
 
 cv::Mat RecordedImage::Gray() const {
   if (gray_.empty()) return {};
-  return Enlarge(cv::Mat(gray_).reshape(1, rows_), step_, size_);
+  return Resample(cv::Mat(gray_).reshape(1, rows_), 1.0 / step_, size_, cv::INTER_LINEAR);
 }
 
 }  // namespace msc_vo

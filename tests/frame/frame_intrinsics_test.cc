@@ -42,11 +42,15 @@ TEST(ChangeIntrinsics, MovesFeaturesToTheirPlaceInTheOtherUndistortedImage) {
   EXPECT_TRUE(changed->lines[0].depth);
 }
 
-TEST(ChangeIntrinsics, RemovesDepthsThatWereNotRegistered) {
-  const auto changed = ChangeIntrinsics(FrameWith(Intrinsics(0.0, false)), Intrinsics(0.0, true));
-  EXPECT_FALSE(changed->points[0].HasDepth());
-  EXPECT_FALSE(changed->lines[0].depth);
-  EXPECT_TRUE(changed->planes.empty());
+// Also if a registration is taken back.
+TEST(ChangeIntrinsics, RemovesDepthsOfOtherPixels) {
+  for (const bool was_corrected : {false, true}) {
+    const auto changed = ChangeIntrinsics(FrameWith(Intrinsics(0.0, was_corrected)),
+                                          Intrinsics(0.0, !was_corrected));
+    EXPECT_FALSE(changed->points[0].HasDepth());
+    EXPECT_FALSE(changed->lines[0].depth);
+    EXPECT_TRUE(changed->planes.empty());
+  }
 }
 
 TEST(ChangeIntrinsics, KeepsDepthsThatWereRegisteredOtherwise) {

@@ -40,7 +40,12 @@ class CalibrationExchangeTest : public testing::Test {
   PinholeCamera camera_;
   AlignedImage image_;
   MapSnapshot map_;
-  ImagePipeline images_{OdometryOptions(), camera_, LensDistortion()};
+  static OdometryOptions Options() {
+    OdometryOptions options;
+    options.features.depth_sensor = DepthSensor::kTimeOfFlight;
+    return options;
+  }
+  ImagePipeline images_{Options(), camera_, LensDistortion()};
   Mapper mapper_{MapperOptions()};
 };
 
@@ -54,6 +59,7 @@ TEST_F(CalibrationExchangeTest, PassesAFewImagesBetweenKeyframes) {
     EXPECT_GT(image.frame->timestamp - last, 0.11);
     last = image.frame->timestamp;
   }
+  EXPECT_EQ(packet.image->sensor(), DepthSensor::kTimeOfFlight);
   EXPECT_LE(Run(9.0, &exchange).calibration_images.size(), 3u);
   EXPECT_TRUE(Keyframe(9.1, &exchange).calibration_images.empty());
 }

@@ -147,5 +147,43 @@ TEST(DepthPreparation, MeasuresDepthAgainWithAnyRegistration) {
   }
 }
 
+// The correction of a registration is taken back.
+TEST(DepthPreparation, MeasuresDepthAgainWithoutARegistration) {
+  const auto given = Given();
+  const DepthMeasurement measure = DepthPreparation(given).MeasurementFor(FrameBuilderOptions());
+  Frame frame;
+  frame.camera = kSmallCamera;
+  frame.intrinsics = std::make_shared<CameraIntrinsics>(Corrected(*given, ShiftBy(-28.0)));
+  frame.points.resize(2);
+  frame.points[0].pixel = {140.0, 120.0};
+  frame.points[1].pixel = {185.0, 120.0};
+  const RgbdImage image = ImageWithEdge(172);
+  const auto measured = measure(frame, RecordedImage(image.gray, image.depth), given);
+  EXPECT_EQ(measured->intrinsics, given);
+  EXPECT_NEAR(measured->points[0].inverse_depth, 1.0 / kFar, 1e-3);
+  EXPECT_NEAR(measured->points[1].inverse_depth, 1.0 / kNear, 1e-3);
+}
+
+// A reduced image does not tell which sensor took it.
+TEST(DepthPreparation, MeasuresDepthAgainWithTheSensorOfTheRun) {
+  const auto given = Given();
+  const RgbdImage image = ImageWithEdge(172);
+  const auto corrected = std::make_shared<CameraIntrinsics>(Corrected(*given, ShiftBy(12.0)));
+  Frame frame;
+  frame.camera = kSmallCamera;
+  frame.intrinsics = given;
+  frame.points.resize(1);
+  frame.points[0].pixel = {80.0, 120.0};
+  std::vector<double> sigmas;
+  for (const DepthSensor sensor : {DepthSensor::kStructuredLight, DepthSensor::kStereo}) {
+    FrameBuilderOptions options;
+    const RecordedImage recorded(image.gray, image.depth, sensor);
+    const auto measured =
+        DepthPreparation(given).MeasurementFor(options)(frame, recorded, corrected);
+    sigmas.push_back(measured->points[0].inverse_depth_sigma);
+  }
+  EXPECT_LT(sigmas[1], 0.7 * sigmas[0]);
+}
+
 }  // namespace
 }  // namespace msc_vo

@@ -53,10 +53,39 @@ TEST(RecordedImage, ReducesWideImages) {
     EXPECT_EQ(image.At((size.width + step - 1) / step, 0), 0.0);
     ASSERT_EQ(image.Depth().size(), size);
     ASSERT_EQ(image.Gray().size(), size);
-    const double max_slope = 0.2 * scale * 2 * step / (0.3 * 0.3);
-    EXPECT_LE(cv::norm(image.Depth(), depth, cv::NORM_INF), max_slope);
+    const double max_slope = 0.2 * scale * 2 / (0.3 * 0.3);  // metres per pixel
+    EXPECT_LE(cv::norm(image.Depth(), depth, cv::NORM_INF), max_slope * step);
     EXPECT_LE(cv::norm(image.Gray(), gray, cv::NORM_INF), 200.0 * scale * step + 1.0);
+    // Apart from the pixels beyond the last kept ones, depth is not displaced.
+    const cv::Rect inside(step, step, size.width - 2 * step, size.height - 2 * step);
+    EXPECT_LE(cv::norm(image.Depth()(inside), depth(inside), cv::NORM_INF), 0.1 * max_slope + 3e-4);
   }
+}
+
+// An edge and a hole, which must not spread.
+TEST(RecordedImage, InterpolatesOnOneSurfaceOnly) {
+  cv::Mat depth(480, 640, CV_32FC1, cv::Scalar(2.0)), gray(480, 640, CV_8UC1, cv::Scalar(20));
+  depth.colRange(301, 640).setTo(1.0);
+  gray.colRange(301, 640).setTo(200);
+  depth.rowRange(0, 100).setTo(0.0);
+  const RecordedImage image(gray, depth);
+  const cv::Mat found = image.Depth(), found_gray = image.Gray();
+  int edge = 0, gray_edge = 0;
+  for (int x = 0; x < 640; ++x) {
+    const auto z = found.at<float>(300, x);
+    EXPECT_TRUE(z == 1.0f || z == 2.0f || z == 0.0f) << x;
+    edge += z == 2.0f;
+    gray_edge += found_gray.at<uint8_t>(300, x) < 110;
+  }
+  EXPECT_NEAR(edge, 301, 1);
+  EXPECT_NEAR(gray_edge, edge, 1);
+  EXPECT_EQ(cv::countNonZero(found.rowRange(0, 98)), 0);
+  EXPECT_EQ(cv::countNonZero(found.rowRange(102, 480)), 378 * 640);
+}
+
+TEST(RecordedImage, KeepsTheSensor) {
+  const cv::Mat depth(2, 3, CV_32FC1, cv::Scalar(1.0));
+  EXPECT_EQ(RecordedImage({}, depth, DepthSensor::kStereo).sensor(), DepthSensor::kStereo);
 }
 
 TEST(RecordedImage, MayBeEmpty) {
