@@ -4,7 +4,6 @@
 #include "msc_vo/odometry/frame_result.h"
 
 #include "msc_vo/frame/feature_counts.h"
-#include "msc_vo/odometry/loss_cause.h"
 #include "msc_vo/tracking/tracked_frame.h"
 
 namespace msc_vo {
@@ -41,9 +40,7 @@ FrameResult RepeatPose(const FrameResult* before) {
 }
 
 void Discard(const FrameResult& before, FrameResult* result) {
-  // A frame without a cause whose image was lost has failed before its image was measured.
-  const bool is_measured =
-      HasImage(result->status) && (result->cause || result->status != TrackingStatus::kLost);
+  if (result->status == TrackingStatus::kTracked) result->cause = LossCause::kNoMatch;
   if (HasImage(result->status)) result->status = TrackingStatus::kLost;
   result->segment = before.segment;
   result->world = before.world;
@@ -54,7 +51,6 @@ void Discard(const FrameResult& before, FrameResult* result) {
   result->covariance.reset();
   result->world_covariance.reset();
   result->odometry_covariance.reset();
-  if (is_measured) result->cause = FindLossCause(*result, false);
 }
 
 }  // namespace msc_vo

@@ -3,8 +3,6 @@
 
 #include "msc_vo/odometry/loss_cause.h"
 
-#include "msc_vo/tracking/tracker_options.h"
-
 namespace msc_vo {
 
 namespace {
@@ -12,8 +10,7 @@ namespace {
 constexpr double kMinContrast = 2.0;        // grey values; noise of a sensor in the dark
 constexpr double kMinMeasuredDepth = 0.05;  // fraction of the pixels
 
-LossCause FirstCause(const FrameResult& frame) {
-  const int min_features = TrackerOptions().min_initial_features;
+LossCause FirstCause(const FrameResult& frame, int min_features) {
   if (frame.image.contrast < kMinContrast) return LossCause::kUniformImage;
   if (frame.num_points + frame.num_lines < min_features) return LossCause::kFewFeatures;
   if (frame.image.measured_depth < kMinMeasuredDepth) return LossCause::kNoDepth;
@@ -23,9 +20,10 @@ LossCause FirstCause(const FrameResult& frame) {
 
 }  // namespace
 
-std::optional<LossCause> FindLossCause(const FrameResult& frame, bool is_implausible) {
+std::optional<LossCause> FindLossCause(const FrameResult& frame, int min_features,
+                                       bool is_implausible) {
   if (frame.status == TrackingStatus::kTracked) return std::nullopt;
-  const LossCause cause = FirstCause(frame);
+  const LossCause cause = FirstCause(frame, min_features);
   return is_implausible && cause == LossCause::kNoMatch ? LossCause::kImplausible : cause;
 }
 

@@ -10,8 +10,10 @@
 namespace msc_vo {
 
 /// The cause for a frame with image, from its numbers; std::nullopt if it is tracked.
-/// `is_implausible`: TrackedFrame::is_implausible.
-std::optional<LossCause> FindLossCause(const FrameResult& frame, bool is_implausible);
+/// `min_features`: TrackerOptions::min_initial_features; `is_implausible`:
+/// TrackedFrame::is_implausible.
+std::optional<LossCause> FindLossCause(const FrameResult& frame, int min_features,
+                                       bool is_implausible);
 
 /// An attribute of one or several images for messages: "with too few points and lines".
 const char* Describe(LossCause cause);

@@ -20,6 +20,8 @@ using testing::AllOf;
 using testing::Not;
 using testing::StartsWith;
 
+constexpr int kMinFeatures = 20;
+
 // A good image whose features do not fit the map.
 FrameResult Unmatched() {
   FrameResult frame;
@@ -32,29 +34,35 @@ FrameResult Unmatched() {
 
 TEST(FindLossCause, ReturnsTheFirstCauseThatApplies) {
   FrameResult frame = Unmatched();
-  EXPECT_EQ(FindLossCause(frame, false), LossCause::kNoMatch);
+  EXPECT_EQ(FindLossCause(frame, kMinFeatures, false), LossCause::kNoMatch);
   frame.num_with_depth = 3;
-  EXPECT_EQ(FindLossCause(frame, false), LossCause::kDepthOutOfRange);
+  EXPECT_EQ(FindLossCause(frame, kMinFeatures, false), LossCause::kDepthOutOfRange);
   frame.image.measured_depth = 0.0;
-  EXPECT_EQ(FindLossCause(frame, false), LossCause::kNoDepth);
+  EXPECT_EQ(FindLossCause(frame, kMinFeatures, false), LossCause::kNoDepth);
   frame.num_points = frame.num_lines = 4;
-  EXPECT_EQ(FindLossCause(frame, false), LossCause::kFewFeatures);
+  EXPECT_EQ(FindLossCause(frame, kMinFeatures, false), LossCause::kFewFeatures);
   frame.image.contrast = 0.5;
-  EXPECT_EQ(FindLossCause(frame, false), LossCause::kUniformImage);
+  EXPECT_EQ(FindLossCause(frame, kMinFeatures, false), LossCause::kUniformImage);
+}
+
+TEST(FindLossCause, ComparesWithTheFeaturesThatAMapNeeds) {
+  const FrameResult frame = Unmatched();
+  EXPECT_EQ(FindLossCause(frame, 701, false), LossCause::kDepthOutOfRange);
+  EXPECT_EQ(FindLossCause(frame, 891, false), LossCause::kFewFeatures);
 }
 
 TEST(FindLossCause, IsThatOfFramesThatAreNotTracked) {
   FrameResult frame = Unmatched();
   frame.status = TrackingStatus::kTracked;
-  EXPECT_EQ(FindLossCause(frame, false), std::nullopt);
+  EXPECT_EQ(FindLossCause(frame, kMinFeatures, false), std::nullopt);
   for (const TrackingStatus status :
        {TrackingStatus::kWeak, TrackingStatus::kPredicted, TrackingStatus::kLost}) {
     frame.status = status;
-    EXPECT_EQ(FindLossCause(frame, false), LossCause::kNoMatch);
-    EXPECT_EQ(FindLossCause(frame, true), LossCause::kImplausible);
+    EXPECT_EQ(FindLossCause(frame, kMinFeatures, false), LossCause::kNoMatch);
+    EXPECT_EQ(FindLossCause(frame, kMinFeatures, true), LossCause::kImplausible);
   }
   frame.num_with_depth = 3;  // explains more
-  EXPECT_EQ(FindLossCause(frame, true), LossCause::kDepthOutOfRange);
+  EXPECT_EQ(FindLossCause(frame, kMinFeatures, true), LossCause::kDepthOutOfRange);
 }
 
 TEST(DescribeLossCause, SuitsOneImageAndSeveral) {
