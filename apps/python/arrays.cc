@@ -62,6 +62,18 @@ bool HasType(const py::array& array, char kind, int bytes) {
 
 std::string TypeText(const py::array& array) { return py::str(array.dtype()); }
 
+py::array ByteArray(py::handle value, const std::string& name) {
+  py::array array = PlainArray(value, name);
+  if (!HasType(array, 'u', 1)) FailArgument(name, "must be uint8, is " + TypeText(array));
+  return array;
+}
+
+// Refuses images with channels.
+void CheckPlane(const py::array& array, const std::string& name) {
+  if (array.ndim() == 2) return;
+  FailArgument(name, "must be of shape (height, width), is " + DescribeArray(array));
+}
+
 // The pixels of the array, or a copy if `value` is something else, from which the array was made.
 cv::Mat ImageOf(const py::array& array, py::handle value, int type) {
   // OpenCV has no read-only images; msc_vo does not write to its input.
@@ -169,19 +181,24 @@ void CopyNumbers(py::handle value, const std::string& name, py::ssize_t rows, py
 }
 
 cv::Mat GrayArgument(py::handle value, const std::string& name) {
-  const py::array array = PlainArray(value, name);
-  const bool is_gray = array.ndim() == 2;
+  const py::array array = ByteArray(value, name);
   const bool is_rgb = array.ndim() == 3 && array.shape(2) == 3;
-  if (!HasType(array, 'u', 1)) FailArgument(name, "must be uint8, is " + TypeText(array));
-  if (!(is_gray || is_rgb)) {
+  if (!(array.ndim() == 2 || is_rgb)) {
     FailArgument(name, "must be of shape (height, width) or, RGB, (height, width, 3), is " +
                            DescribeArray(array));
   }
   CheckImage(array, name);
-  if (is_gray) return ImageOf(array, value, CV_8UC1);
+  if (!is_rgb) return ImageOf(array, value, CV_8UC1);
   cv::Mat gray;
   cv::cvtColor(ImageOf(array, value, CV_8UC3), gray, cv::COLOR_RGB2GRAY);
   return gray;
+}
+
+cv::Mat MaskArgument(py::handle value, const std::string& name) {
+  const py::array array = ByteArray(value, name);
+  CheckPlane(array, name);
+  CheckImage(array, name);
+  return ImageOf(array, value, CV_8UC1);
 }
 
 cv::Mat DepthArgument(py::handle value, py::handle depth_scale, const std::string& name) {
@@ -194,9 +211,7 @@ cv::Mat DepthArgument(py::handle value, py::handle depth_scale, const std::strin
     FailArgument(name,
                  "must be float32 in metres, or uint16 with depth_scale, is " + TypeText(array));
   }
-  if (array.ndim() != 2) {
-    FailArgument(name, "must be of shape (height, width), is " + DescribeArray(array));
-  }
+  CheckPlane(array, name);
   CheckImage(array, name);
   if (is_metric) {
     if (!depth_scale.is_none()) {

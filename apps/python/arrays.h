@@ -51,6 +51,8 @@ void CopyNumbers(pybind11::handle value, const std::string& name, pybind11::ssiz
 /// An 8-bit grey image from (height, width) or RGB (height, width, 3). Grey images share the memory
 /// of the array.
 cv::Mat GrayArgument(pybind11::handle value, const std::string& name);
+/// A mask (height, width) of type uint8, which shares the memory of the array.
+cv::Mat MaskArgument(pybind11::handle value, const std::string& name);
 /// A depth image in metres: float32 in metres, which shares the memory of the array, or uint16 with
 /// `depth_scale` units per metre (None with float32). Masked elements are not measured.
 cv::Mat DepthArgument(pybind11::handle value, pybind11::handle depth_scale,

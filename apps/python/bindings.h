@@ -10,11 +10,12 @@ namespace msc_vo {
 // One function and one file per part of the Python module; each declares its classes and functions
 // in `module`. The module is documented in docs/python.md and __init__.pyi.
 
+void BindErrors(pybind11::module_* module);        ///< UnreadableImage, messages of all errors
 void BindLog(pybind11::module_* module);           ///< set_log_level
 void BindCamera(pybind11::module_* module);        ///< Camera, Lens
 void BindDepthCamera(pybind11::module_* module);   ///< DepthCamera, DepthRegistration
 void BindOptions(pybind11::module_* module);       ///< Options, WindowOptions
-void BindSequence(pybind11::module_* module);      ///< Sequence, RgbdImage, UnreadableImage
+void BindSequence(pybind11::module_* module);      ///< Sequence, RgbdImage
 void BindFactors(pybind11::module_* module);       ///< cost functions, blocks and custom factors
 void BindFrame(pybind11::module_* module);         ///< FrameResult
 void BindCalibration(pybind11::module_* module);   ///< CalibrationEstimate

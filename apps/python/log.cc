@@ -9,6 +9,7 @@
 #include <spdlog/sinks/sink.h>
 
 #include "apps/python/bindings.h"
+#include "apps/python/plain_array.h"
 #include "msc_vo/logging/logger.h"
 
 namespace msc_vo {
@@ -41,7 +42,8 @@ class PythonSink final : public spdlog::sinks::sink {
     const py::gil_scoped_acquire gil;
     try {
       const py::object logger = py::module_::import("logging").attr("getLogger")("msc_vo");
-      logger.attr("log")(number, "%s", std::string(message.payload.data(), message.payload.size()));
+      logger.attr("log")(number, "%s",
+                         SystemText({message.payload.data(), message.payload.size()}));
     } catch (py::error_already_set& error) {
       error.discard_as_unraisable("msc_vo: logging");
     }

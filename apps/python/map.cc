@@ -36,10 +36,14 @@ void AddObservations(const Map& map, const L& landmark, WindowData* window) {
 }
 
 std::map<KeyframeId, py::bytes> ReadImages(const py::object& file) {
-  const MapImages images(PathArgument(file));
-  std::map<KeyframeId, py::bytes> all;
-  for (const KeyframeId id : images.Keyframes()) all.emplace(id, images.Read(id));
-  return all;
+  const std::string path = PathArgument(file);
+  std::map<KeyframeId, std::string> jpegs;
+  {
+    const py::gil_scoped_release release;
+    const MapImages images(path);
+    for (const KeyframeId id : images.Keyframes()) jpegs.emplace(id, images.Read(id));
+  }
+  return {jpegs.begin(), jpegs.end()};
 }
 
 }  // namespace

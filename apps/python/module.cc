@@ -9,6 +9,7 @@
 PYBIND11_MODULE(_msc_vo, module) {
   module.doc() = "The compiled part of the package msc_vo.";
   module.attr("__version__") = msc_vo::kVersion;
+  msc_vo::BindErrors(&module);
   msc_vo::BindLog(&module);
   msc_vo::BindCamera(&module);
   msc_vo::BindDepthCamera(&module);

@@ -104,6 +104,7 @@ class PyOdometry {
     const std::map<KeyframeId, std::string> jpegs(images.begin(), images.end());
     auto maps = Alone([&] { return odometry_->ShareMaps(session); });
     if (!maps) throw std::runtime_error(path + ": not written, since a keyframe step has failed");
+    const py::gil_scoped_release release;
     SaveMap(path, std::move(*maps), [&jpegs](KeyframeId id) {
       const auto jpeg = jpegs.find(id);
       return jpeg != jpegs.end() ? jpeg->second : std::string();
@@ -116,6 +117,10 @@ class PyOdometry {
     Alone([&] { odometry_->SetTrackingObserver(std::move(observer)); });
   }
 
+  void SkipClippedDepthSearch() {
+    Alone([&] { odometry_->SkipClippedDepthSearch(); });
+  }
+
   FrameResult Process(const py::object& timestamp, const py::object& gray, const py::object& depth,
                       const py::object& depth_scale, const py::object& depth_delay,
                       const py::object& mask) {
@@ -125,7 +130,7 @@ class PyOdometry {
     image.depth_delay = NumberArgument(depth_delay, "depth_delay");
     image.gray = GrayArgument(gray, "gray");
     image.depth = DepthArgument(depth, depth_scale, "depth");
-    if (!mask.is_none()) image.mask = GrayArgument(mask, "mask");
+    if (!mask.is_none()) image.mask = MaskArgument(mask, "mask");
     if (!depth_scale.is_none() && image.id < kNumChecked) CheckByteOrder(image.depth, depth_scale);
     return Alone([&] { return Reported(odometry_->Process(image)); });
   }
@@ -354,6 +359,9 @@ void BindOdometry(py::module_* module) {
       .def("set_tracking_observer", &PyOdometry::SetTrackingObserver, py::arg("callback"),
            "callback(TrackedImage) is called with every frame that process() has tracked, for "
            "display. ValueError after the first image.")
+      .def("skip_clipped_depth_search", &PyOdometry::SkipClippedDepthSearch,
+           "Takes depth as measured at any value. For images of a Sequence, which leaves out "
+           "clipped depth itself. ValueError after the first image.")
       .def("map", &PyOdometry::CopyOfMap,
            "Waits for local mapping and returns a copy of the present Map.");
   BindStorage(&odometry);

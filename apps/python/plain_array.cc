@@ -82,7 +82,16 @@ py::array NumberArray(py::handle value, const std::string& name) {
 }
 
 std::string PathArgument(py::handle value) {
-  return py::module_::import("os").attr("fspath")(value).cast<std::string>();
+  PyObject* path = nullptr;
+  if (PyUnicode_FSConverter(value.ptr(), &path) == 0) throw py::error_already_set();
+  return py::reinterpret_steal<py::bytes>(path);
+}
+
+py::str SystemText(const std::string& text) {
+  PyObject* decoded =
+      PyUnicode_DecodeFSDefaultAndSize(text.data(), static_cast<py::ssize_t>(text.size()));
+  if (decoded == nullptr) throw py::error_already_set();
+  return py::reinterpret_steal<py::str>(decoded);
 }
 
 double NumberArgument(py::handle value, const std::string& name) {

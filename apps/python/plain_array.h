@@ -9,8 +9,8 @@
 
 namespace msc_vo {
 
-// Python values as arrays of plain numbers, numbers and paths. All functions but IsMasked() throw
-// std::invalid_argument, in Python ValueError, that names the argument.
+// Python values as arrays of plain numbers, numbers and paths. All functions but IsMasked() and
+// PathArgument() throw std::invalid_argument, in Python ValueError, that names the argument.
 
 /// Throws "NAME: PROBLEM".
 [[noreturn]] void FailArgument(const std::string& name, const std::string& problem);
@@ -28,8 +28,12 @@ pybind11::array PlainArray(pybind11::handle value, const std::string& name);
 /// Returns the value as a PlainArray() of integers or floating-point numbers.
 pybind11::array NumberArray(pybind11::handle value, const std::string& name);
 
-/// A path as str, bytes or os.PathLike.
+/// A path as str, bytes or os.PathLike, in the bytes of the file system. Throws TypeError on other
+/// values.
 std::string PathArgument(pybind11::handle value);
+
+/// A text that may contain paths, as os.fsdecode() returns it: their bytes need not be UTF-8.
+pybind11::str SystemText(const std::string& text);
 
 /// A number.
 double NumberArgument(pybind11::handle value, const std::string& name);

@@ -41,13 +41,17 @@ std::unique_ptr<VideoReader> LoadVideoReader() {
 
 RgbdDecoder Open(const py::object& directory, const std::string& format, const std::string& camera,
                  const py::object& config, const py::object& mask, bool mask_zero) {
+  const std::string folder = PathArgument(directory);
+  const std::string config_file = config.is_none() ? "" : PathArgument(config);
+  const std::string masks = mask.is_none() ? "" : PathArgument(mask);
+  const py::gil_scoped_release release;
   Configuration configuration;
-  if (!config.is_none()) ReadConfiguration(PathArgument(config), &configuration);
-  SequenceIndex index = OpenFolder(PathArgument(directory), format,
-                                   {PhoneOptions().least_confidence, LoadVideoReader});
+  if (!config_file.empty()) ReadConfiguration(config_file, &configuration);
+  SequenceIndex index =
+      OpenFolder(folder, format, {PhoneOptions().least_confidence, LoadVideoReader});
   Calibration calibration = ResolveCalibration(configuration.camera, camera, &index);
   index.clipped_depth = FindClippedDepth(index);
-  index.masks = OpenMasks(mask.is_none() ? "" : PathArgument(mask), mask_zero, index);
+  index.masks = OpenMasks(masks, mask_zero, index);
   return {std::move(index), std::move(calibration)};
 }
 
@@ -97,28 +101,11 @@ void BindImage(py::module_* module) {
                              "all pixels are used.");
 }
 
-}  // namespace
+using SequenceClass = py::class_<RgbdDecoder>;
 
-void BindSequence(py::module_* module) {
-  py::register_exception<UnreadableImage>(*module, "UnreadableImage", PyExc_RuntimeError)
-      .attr("__doc__") =
-      "An image of a sequence is missing or damaged; the message names the file.";
-  BindImage(module);
-  py::class_<RgbdDecoder>(*module, "Sequence",
-                          "A folder with RGB-D images in one of the layouts of docs/usage.md. "
-                          "sequence[i] decodes image i and raises UnreadableImage if it is missing "
-                          "or damaged.")
-      .def(py::init(&Open), py::arg("directory"), py::arg("format") = "auto",
-           py::arg("camera") = "", py::arg("config") = py::none(), py::arg("mask") = py::none(),
-           py::arg("mask_zero") = false,
-           "format, camera, config, mask, mask_zero: as --format, --camera, --config, --mask and "
-           "--mask-zero of `msc_vo replay`. Raises RuntimeError naming file, line and fix.")
-      .def("__len__", &RgbdDecoder::size)
-      .def("__getitem__", &ImageAt, py::arg("index"))
-      .def("__iter__",
-           [](const py::object& self) {
-             return py::reinterpret_steal<py::object>(PySeqIter_New(self.ptr()));  // by __getitem__
-           })
+// Colour and depth camera of a sequence.
+void BindSensors(SequenceClass* sequence) {
+  (*sequence)
       .def_property_readonly(
           "camera", [](const RgbdDecoder& self) { return self.calibration().camera; },
           "Camera of the undistorted images.")
@@ -137,24 +124,58 @@ void BindSequence(py::module_* module) {
           "depth_scale", [](const RgbdDecoder& self) { return self.calibration().depth_scale; },
           "Raw depth units per metre.")
       .def_property_readonly(
+          "depth_sensor",
+          [](const RgbdDecoder& self) { return ToString(self.index().depth_sensor); },
+          "Name of the depth sensor that the sequence gives, for the option "
+          "features.depth_sensor; 'auto' if it gives none.")
+      .def_property_readonly(
           "readout_time", [](const RgbdDecoder& self) { return self.calibration().readout_time; },
-          "Seconds from the first row to the last, 0: global shutter, None: unknown.")
+          "Seconds from the first row to the last, 0: global shutter, None: unknown.");
+}
+
+}  // namespace
+
+void BindSequence(py::module_* module) {
+  BindImage(module);
+  SequenceClass sequence(*module, "Sequence",
+                         "A folder with RGB-D images in one of the layouts of docs/usage.md. "
+                         "sequence[i] decodes image i and raises UnreadableImage if it is missing "
+                         "or damaged.");
+  BindSensors(&sequence);
+  sequence
+      .def(py::init(&Open), py::arg("directory"), py::arg("format") = "auto",
+           py::arg("camera") = "", py::arg("config") = py::none(), py::arg("mask") = py::none(),
+           py::arg("mask_zero") = false,
+           "format, camera, config, mask, mask_zero: as --format, --camera, --config, --mask and "
+           "--mask-zero of `msc_vo replay`. Raises RuntimeError naming file, line and fix.")
+      .def("__len__", &RgbdDecoder::size)
+      .def("__getitem__", &ImageAt, py::arg("index"))
+      .def("__iter__",
+           [](const py::object& self) {
+             return py::reinterpret_steal<py::object>(PySeqIter_New(self.ptr()));  // by __getitem__
+           })
       .def_property_readonly("timestamps", &StampsOf, "(N,) seconds, of the colour images.")
       .def_property_readonly(
           "groundtruth",
           [](const RgbdDecoder& self) { return TrajectoryRows(self.index().ground_truth); },
           "(N, 8) rows t tx ty tz qx qy qz qw; no rows without ground truth.")
       .def_property_readonly(
-          "directory", [](const RgbdDecoder& self) { return self.index().directory; },
+          "directory", [](const RgbdDecoder& self) { return SystemText(self.index().directory); },
           "The folder.")
       .def_property_readonly(
           "format", [](const RgbdDecoder& self) { return self.index().format; },
           "Name of its layout, see --format of `msc_vo replay`.")
-      .def_property_readonly("warnings", &RgbdDecoder::Warnings,
-                             "What is doubtful about the sequence.")
+      .def_property_readonly(
+          "warnings",
+          [](const RgbdDecoder& self) {
+            py::list texts;
+            for (const std::string& warning : self.Warnings()) texts.append(SystemText(warning));
+            return texts;
+          },
+          "What is doubtful about the sequence.")
       .def("__repr__", [](const RgbdDecoder& self) {
-        return "<Sequence '" + self.index().directory + "': " + std::to_string(self.size()) +
-               " images>";
+        return SystemText("<Sequence '" + self.index().directory +
+                          "': " + std::to_string(self.size()) + " images>");
       });
 }
 

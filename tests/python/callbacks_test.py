@@ -1,4 +1,8 @@
+import os
+import sys
+import tempfile
 import threading
+import time
 import unittest
 
 import numpy as np
@@ -251,3 +255,40 @@ class Callbacks(unittest.TestCase):
             odometry.set_window_observer(lambda *_: [sum(range(1000)) for _ in range(200)])
             support.process(odometry, support.room_images()[:8])
             del odometry
+
+
+class OtherThreads(unittest.TestCase):
+    def expect_to_run_during(self, action):
+        done, ticks = threading.Event(), [0]
+
+        def tick():
+            while not done.is_set():
+                time.sleep(1e-4)
+                ticks[0] += 1
+
+        interval = sys.getswitchinterval()
+        sys.setswitchinterval(1000.0)  # seconds: a thread runs only while the other one is without the GIL
+        thread = threading.Thread(target=tick)
+        thread.start()
+        try:
+            before = ticks[0]
+            for _ in range(200):  # an action may take less than a tick
+                action()
+                if ticks[0] > before:
+                    break
+            self.assertGreater(ticks[0], before)
+        finally:
+            done.set()
+            thread.join()
+            sys.setswitchinterval(interval)
+
+    def test_run_while_files_are_read_and_written(self):
+        odometry = support.room_odometry()
+        support.process(odometry, support.room_images()[:6])
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "room.map")
+            odometry.save_map(file)
+            odometry.finish()
+            self.expect_to_run_during(lambda: msc_vo.Sequence(support.ROOM))
+            self.expect_to_run_during(lambda: msc_vo.map_images(file))
+            self.expect_to_run_during(lambda: odometry.save_map(file))

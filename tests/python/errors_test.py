@@ -1,4 +1,8 @@
 """Errors are in the terms of Python: names of arguments, types of NumPy, sizes as width x height."""
+import os
+import pathlib
+import shutil
+import tempfile
 import unittest
 
 import numpy as np
@@ -55,6 +59,8 @@ def calls():
     yield process(g=None), "gray: "
     yield process(g="image.png"), "gray: "
     yield process(d=[[1.0]]), "depth: must be float32"
+    yield process(mask=gray.astype(bool)), "mask: must be uint8, is bool"
+    yield process(mask=np.zeros((480, 640, 3), np.uint8)), r"mask: must be of shape \(height, width\), is \(480, 640, 3\)"
     yield process(t="now"), "timestamp: expected a number"
     yield process(t=float("nan")), "time stamp must be a finite number"
     yield process(depth_delay="late"), "depth_delay: expected a number"
@@ -119,6 +125,25 @@ class Errors(unittest.TestCase):
             with self.assertRaises(TypeError) as raised:
                 call()
             self.assertNotRegex(str(raised.exception), FOREIGN)
+
+    def test_paths_need_not_be_utf8(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(os.fsencode(folder), b"\xff")
+            for name in (path, os.fsdecode(path), pathlib.Path(os.fsdecode(path))):
+                for call in (msc_vo.Sequence, msc_vo.read_window, msc_vo.Options.read, msc_vo.map_images):
+                    with self.assertRaises(RuntimeError) as raised:
+                        call(name)
+                    self.assertIn(os.fsdecode(path), str(raised.exception))
+            shutil.copytree(os.fsencode(support.ROOM), path)
+            sequence = msc_vo.Sequence(path)
+            self.assertEqual(sequence.directory, os.fsdecode(path))
+            self.assertIn(os.fsdecode(path), repr(sequence))
+            os.truncate(sorted(pathlib.Path(os.fsdecode(path), "rgb").iterdir())[3], 100)
+            with self.assertRaises(msc_vo.UnreadableImage) as raised:
+                sequence[3]
+            self.assertIn(os.fsdecode(path), str(raised.exception))
+        with self.assertRaisesRegex(ValueError, "null"):
+            msc_vo.Sequence("folder\0")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,8 @@
 import gc
+import json
 import os
 import pathlib
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -9,6 +11,9 @@ import numpy as np
 
 import msc_vo
 import support
+
+SHARED = os.environ.get("MSC_VO_SHARED") == "1"
+OWN_FUNCTIONS = "with shared libraries each program uses the C library's functions of its process"
 
 
 class SequenceTest(unittest.TestCase):
@@ -43,8 +48,9 @@ class SequenceTest(unittest.TestCase):
         odometry.set_tracking_observer(lambda tracked: seen.append(tracked.points))
         odometry.process(image.timestamp, image.gray, support.room()[0].depth, mask=image.mask)
         self.assertGreater(seen[0][:, 0].min(), 320.0 + 17.0)
-        with self.assertRaisesRegex(ValueError, "mask"):
-            odometry.process(image.timestamp + 1.0, image.gray, image.depth, mask=pixels[:240])
+        for wrong in (pixels[:240], np.dstack([pixels] * 3)):
+            with self.assertRaisesRegex(ValueError, "mask"):
+                odometry.process(image.timestamp + 1.0, image.gray, image.depth, mask=wrong)
 
     def test_videos_are_read(self):
         with tempfile.TemporaryDirectory() as scratch:
@@ -102,8 +108,7 @@ class LensTest(unittest.TestCase):
 
 
 class Replay(unittest.TestCase):
-    @unittest.skipIf(os.environ.get("MSC_VO_SHARED") == "1",
-                     "with shared libraries each program uses the C library's functions of its process")
+    @unittest.skipIf(SHARED, OWN_FUNCTIONS)
     def test_writes_the_bytes_of_the_command(self):
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
@@ -116,6 +121,71 @@ class Replay(unittest.TestCase):
                              support.room_result().trajectory.shape)
             np.testing.assert_allclose(support.room_result().trajectory,
                                        np.loadtxt(folder / "out" / "trajectory.txt"), atol=1e-6)
+
+    def expect_bytes_of_the_command(self, sequence, *arguments):
+        """Returns the result of msc_vo.replay()."""
+        result = msc_vo.replay(sequence)
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            subprocess.run([support.COMMAND, "replay", sequence.directory, "--output", folder / "out", "--quiet",
+                            *arguments], check=True)
+            result.write_trajectory(folder / "trajectory.txt")
+            self.assertEqual((folder / "trajectory.txt").read_bytes(),
+                             (folder / "out" / "trajectory.txt").read_bytes())
+        return result
+
+    @unittest.skipIf(SHARED, OWN_FUNCTIONS)
+    def test_leaves_out_the_pixels_of_a_mask(self):
+        with tempfile.TemporaryDirectory() as folder:
+            mask = pathlib.Path(folder, "mask.pgm")
+            pixels = np.zeros((480, 640), np.uint8)
+            pixels[:, :200] = 255
+            mask.write_bytes(b"P5 640 480 255\n" + pixels.tobytes())
+            self.expect_bytes_of_the_command(msc_vo.Sequence(support.ROOM, mask=mask), "--mask", mask)
+
+    @unittest.skipIf(SHARED, OWN_FUNCTIONS)
+    def test_takes_the_depth_sensor_of_the_layout(self):
+        self.assertEqual(support.room().depth_sensor, "auto")
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            for i, time in enumerate(support.room().timestamps[:10]):
+                name, number = f"{time:.6f}", f"{i:05d}"
+                shutil.copy(support.ROOM / "rgb" / f"{name}.jpg", folder / f"frame_{number}.jpg")
+                shutil.copy(support.ROOM / "depth" / f"{name}.png", folder / f"depth_{number}.png")
+                (folder / f"frame_{number}.json").write_text(json.dumps(
+                    {"time": time, "intrinsics": support.room().camera.matrix.ravel().tolist(),
+                     "cameraPoseARFrame": np.eye(4).ravel().tolist()}))
+            sequence = msc_vo.Sequence(folder)
+            self.assertEqual((sequence.format, sequence.depth_sensor), ("3d-scanner-app", "lidar"))
+            result = self.expect_bytes_of_the_command(sequence, "--no-check")
+            self.assertEqual(result.depth_sensor, "lidar")
+            given = msc_vo.replay(sequence, {"features.depth_sensor": "tof"})
+            self.assertEqual(given.depth_sensor, "tof")
+
+    @unittest.skipIf(SHARED, OWN_FUNCTIONS)
+    def test_does_not_search_for_clipped_depth_again(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            shutil.copytree(support.ROOM / "rgb", folder / "rgb")
+            for name in ("rgb.txt", "camera.txt"):
+                shutil.copy(support.ROOM / name, folder)
+            (folder / "depth").mkdir()
+            lines = []
+            for i, image in enumerate(support.room_images()):
+                raw = np.rint(5000.0 * image.depth)
+                if i < len(support.room()) // 2:  # the sequence as a whole is not clipped
+                    raw = np.minimum(raw, 12500)
+                name = f"depth/{image.timestamp:.6f}.pgm"
+                (folder / name).write_bytes(b"P5 640 480 65535\n" + raw.astype(">u2").tobytes())
+                lines.append(f"{image.timestamp:.6f} {name}\n")
+            (folder / "depth.txt").write_text("".join(lines))
+            sequence = msc_vo.Sequence(folder)
+            self.expect_bytes_of_the_command(sequence)
+            searching = msc_vo.Odometry(None, sequence.camera, sequence.lens)
+            found = support.process(searching, sequence)
+            self.assertNotEqual(found, msc_vo.replay(sequence).frames)
+            with self.assertRaisesRegex(ValueError, "first image"):
+                searching.skip_clipped_depth_search()
 
     def test_raw_depth_and_colour_give_the_same_trajectory(self):
         images = support.room_images()[:12]

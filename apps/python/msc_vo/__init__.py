@@ -37,7 +37,10 @@ def replay(sequence, options=None, on_frame=None, on_tracked=None):
     values = Options(**dict(options or {}))  # noqa: F405
     if values["mapping.readout_time"] is None:
         values["mapping.readout_time"] = sequence.readout_time
+    if values["features.depth_sensor"] == "auto":
+        values["features.depth_sensor"] = sequence.depth_sensor
     odometry = Odometry(values, sequence.camera, sequence.lens)  # noqa: F405
+    odometry.skip_clipped_depth_search()
     odometry.set_tracking_observer(on_tracked)
     for i, timestamp in enumerate(sequence.timestamps):
         try:
@@ -46,7 +49,7 @@ def replay(sequence, options=None, on_frame=None, on_tracked=None):
             frame = odometry.drop(timestamp, "unreadable")
         else:
             frame = odometry.process(timestamp, image.gray, image.depth,
-                                     depth_delay=image.depth_delay)
+                                     depth_delay=image.depth_delay, mask=image.mask)
         if on_frame is not None:
             on_frame(frame)
     return odometry.finish()
