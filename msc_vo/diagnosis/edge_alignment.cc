@@ -31,8 +31,8 @@ constexpr double kSearchRadius = 1.5;
 constexpr int kFineReach = 10;
 // Mirrored images are otherwise registered, to 4 pixels of 640.
 constexpr int kMirroredReach = 2;
-// Size of the cells that tell repeated edges from others, pixels of the coarse image: more than the
-// noise of an edge's place.
+// Size of the cells that distinguish repeated edges from others, pixels of the coarse image: more
+// than the noise of an edge's place.
 constexpr int kCellSize = 4;
 
 cv::Mat Mirror(const cv::Mat& image, Mirroring mirroring) {
