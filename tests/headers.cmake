@@ -1,6 +1,6 @@
 # Every public header compiles alone. A header with a source file of its own is included first by it
 # (cmake/check_layers.py sees to that); each of the others gets a source file here that holds nothing
-# but the include.
+# but the include. cmake/check_headers.py finds includes that the precompiled headers hide.
 get_property(components GLOBAL PROPERTY MSC_VO_COMPONENTS)
 foreach(component ${components})
   get_property(folder GLOBAL PROPERTY MSC_VO_FOLDER_OF_${component})
@@ -20,7 +20,10 @@ foreach(component ${components})
   if(sources)
     add_library(${component}_headers OBJECT ${sources})
     msc_vo_compile_options(${component}_headers)
-    set_target_properties(${component}_headers PROPERTIES UNITY_BUILD OFF)  # each header alone
+    set_target_properties(${component}_headers PROPERTIES
+      UNITY_BUILD OFF  # each header alone
+      POSITION_INDEPENDENT_CODE ON)
+    msc_vo_use_precompiled_headers(${component}_headers library)
     target_link_libraries(${component}_headers PRIVATE msc_vo::${component})
   endif()
 endforeach()
