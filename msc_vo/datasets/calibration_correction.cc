@@ -3,25 +3,29 @@
 
 #include "msc_vo/datasets/calibration_correction.h"
 
-#include "msc_vo/camera/camera_intrinsics.h"
 #include "msc_vo/sensor/depth_camera_correction.h"
 
 namespace msc_vo {
 
 Calibration Corrected(const Calibration& calibration, const SensorCorrection::Vector& correction) {
-  const PinholeCamera& given = calibration.Recorded();
-  LensDistortion lens = calibration.distortion;
-  lens.recorded.reset();
-  const CameraIntrinsics recorded = Corrected(CameraIntrinsics{given, lens}, correction);
-  Calibration corrected = calibration;
-  corrected.distortion.k = recorded.distortion.k;
-  corrected.SetRecorded(recorded.camera);
+  CameraIntrinsics recorded{calibration.Recorded(), calibration.distortion};
+  recorded.distortion.recorded.reset();
+  Calibration corrected = Corrected(calibration, Corrected(recorded, correction));
   corrected.SetUndistorted();
-  if (recorded.registration) {
+  return corrected;
+}
+
+Calibration Corrected(const Calibration& calibration, const CameraIntrinsics& intrinsics) {
+  Calibration corrected = calibration;
+  corrected.camera = intrinsics.camera;
+  corrected.distortion = intrinsics.distortion;
+  if (intrinsics.registration) {
+    const PinholeCamera& given = calibration.Recorded();
     const DepthCamera depth_camera = calibration.depth_camera
                                          ? *calibration.depth_camera
-                                         : RegisteredDepthCamera(given, recorded.distortion);
-    corrected.depth_camera = Corrected(depth_camera, given, recorded.camera, correction);
+                                         : RegisteredDepthCamera(given, intrinsics.distortion);
+    corrected.depth_camera =
+        Corrected(depth_camera, given, corrected.Recorded(), *intrinsics.registration);
   }
   return corrected;
 }

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "msc_vo/camera/camera_intrinsics.h"
 #include "msc_vo/camera/sensor_correction.h"
 #include "msc_vo/datasets/calibration.h"
 
@@ -12,5 +13,8 @@ namespace msc_vo {
 /// a depth camera, or change the one that there is; those of the depth sensor (kDepthOffset,
 /// kDepthBowl) are left out.
 Calibration Corrected(const Calibration& calibration, const SensorCorrection::Vector& correction);
+
+/// The same for intrinsics that have been corrected.
+Calibration Corrected(const Calibration& calibration, const CameraIntrinsics& intrinsics);
 
 }  // namespace msc_vo

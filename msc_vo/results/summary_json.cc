@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <type_traits>
 
+#include "msc_vo/datasets/calibration_correction.h"
 #include "msc_vo/datasets/image_container.h"
 #include "msc_vo/datasets/image_masks.h"
 #include "msc_vo/results/calibration_json.h"
@@ -75,14 +76,6 @@ Json OptionsToJson(const Configuration& configuration) {
   return json;
 }
 
-// The calibration at the end of the run, whose camera may have been corrected.
-Calibration FinalCalibration(const RunSummary& summary, const RunContext& context) {
-  Calibration calibration = context.calibration;
-  calibration.camera = summary.intrinsics.camera;
-  calibration.distortion = summary.intrinsics.distortion;
-  return calibration;
-}
-
 // How the images were read, apart from the camera; whoever reads them again does it alike.
 Json ReadingToJson(const SequenceIndex& sequence) {
   const ImageMasks* masks = sequence.masks.get();
@@ -116,7 +109,8 @@ std::string FormatSummaryJson(const RunSummary& summary, const RunContext& conte
       {"reading", ReadingToJson(context.sequence)},
       {"warnings", context.sequence.warnings}};
   json["camera"] = CameraToJson(context.calibration);
-  json["final_camera"] = Json::parse(FormatCalibrationJson(FinalCalibration(summary, context)));
+  json["final_camera"] =
+      Json::parse(FormatCalibrationJson(Corrected(context.calibration, summary.intrinsics)));
   json["first_unreadable_image"] =
       context.first_unreadable.empty() ? Json() : Json(context.first_unreadable);
   json["realtime"] = RealtimeToJson(context.realtime);

@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "msc_vo/datasets/calibration_correction.h"
 #include "msc_vo/geometry/so3.h"
 #include "msc_vo/results/calibration_json.h"
 #include "msc_vo/results/result_files.h"
@@ -100,6 +101,22 @@ TEST_F(RecordedRunTest, HasTheCameraAtTheEnd) {
   WriteText("summary.json", R"({"final_camera": {"fx": 1}})");
   EXPECT_THROW(ReadRecordedRun(Folder()), std::runtime_error);
   EXPECT_FALSE(ReadRecordedRun(Path("none")).calibration);
+}
+
+TEST_F(RecordedRunTest, HasTheDepthCameraThatTheRunHasFound) {
+  RunContext context;
+  context.calibration.camera = {500.0, 500.0, 319.5, 239.5, 640, 480};
+  SensorCorrection::Vector correction = SensorCorrection::Vector::Zero();
+  correction(SensorCorrection::kFocalLength) = 0.02;
+  correction(SensorCorrection::kDepthFocalLength) = 0.1;
+  correction(SensorCorrection::kDepthParallaxX) = 0.05;
+  RunSummary summary;
+  summary.intrinsics = Corrected(CameraIntrinsics{context.calibration.camera, {}}, correction);
+  WriteText("summary.json", FormatSummaryJson(summary, context));
+  const RecordedRun run = ReadRecordedRun(Folder());
+  ASSERT_TRUE(run.calibration && run.calibration->depth_camera);
+  const Calibration expected = Corrected(context.calibration, correction);
+  EXPECT_EQ(FormatCalibrationJson(*run.calibration), FormatCalibrationJson(expected));
 }
 
 TEST(CalibrationJson, KeepsLensesWithAnotherRecordedCamera) {
