@@ -25,6 +25,7 @@
 #include "apps/cli/usage_error.h"
 #include "msc_vo/config/camera_options.h"
 #include "msc_vo/config/options_file.h"
+#include "msc_vo/datasets/image_size_fit.h"
 #include "msc_vo/text/files.h"
 
 namespace msc_vo {
@@ -97,15 +98,17 @@ void CheckOutputs(const CalibrateArguments& arguments, const std::vector<RgbdDec
 
 // Prints the results and writes the files, first the one that counts. Throws std::runtime_error if
 // the estimate is no camera.
-void WriteResults(const CalibrateArguments& arguments, const CalibrationReport& report) {
+// `first`: the first sequence.
+void WriteResults(const CalibrateArguments& arguments, const SequenceIndex& first,
+                  const CalibrationReport& report) {
   if (arguments.run.json) {
     std::cout << FormatCalibrationJson(report) << std::flush;
   } else if (!arguments.run.quiet) {
     std::cout << FormatCalibrationTable(report) << std::flush;
   }
   if (report.problem.empty() && !arguments.output.empty()) {
-    WriteFile(arguments.output,
-              FormatChangedOptions(CameraConfiguration(report.used), kCameraMark));
+    const Calibration stored = StoredCalibration(first, report.used);
+    WriteFile(arguments.output, FormatChangedOptions(CameraConfiguration(stored), kCameraMark));
   }
   if (!arguments.plot.empty()) {
     WritePlotFile(arguments.plot,
@@ -117,14 +120,15 @@ void WriteResults(const CalibrateArguments& arguments, const CalibrationReport& 
 int Run(const CalibrateArguments& arguments) {
   Configuration configuration = MakeConfiguration(arguments.configuration);
   std::vector<RgbdDecoder> decoders = OpenSequences(arguments, configuration);
-  UseDepthSensorOf(decoders.front().index(), &configuration.odometry);
+  const SequenceIndex first = decoders.front().index();
+  UseDepthSensorOf(first, &configuration.odometry);
   CheckOutputs(arguments, decoders);
   RunArguments run = arguments.run;
   run.quiet = run.quiet || run.json;
   const InterruptGuard interrupt;
   CalibrationRounds rounds(std::move(decoders), configuration, run, interrupt);
   const ExitCode exit_code = rounds.Run();
-  if (exit_code == kExitSuccess) WriteResults(arguments, rounds.report());
+  if (exit_code == kExitSuccess) WriteResults(arguments, first, rounds.report());
   return exit_code;
 }
 

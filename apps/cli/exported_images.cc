@@ -63,10 +63,9 @@ RgbdDecoder OpenExportedSequence(const RunExport& arguments) {
   CameraSettings& camera = configuration.camera;
   const bool is_as_recorded = run.calibration && sequence.camera.empty() && camera.IsEmpty();
   if (is_as_recorded) {
-    const std::optional<int> max_width = camera.max_width;
     const double float_depth_scale = camera.float_depth_scale.value_or(reading.float_depth_scale);
     camera = SettingsOf(*run.calibration);
-    camera.max_width = max_width;
+    camera.max_width = run.calibration->Recorded().width;
     camera.float_depth_scale = float_depth_scale;
   }
   RgbdDecoder decoder = OpenDecoder(sequence, configuration);

@@ -79,9 +79,19 @@ void FitToImageSizes(const ImageSize& color, const ImageSize& depth, std::option
   calibration->SetRecorded(ScaledCamera(recorded, reduced));
   if (!is_reduced) return;
   index->scale_color = true;
+  index->reduced_from = color;
   index->warnings.push_back(
       FormatText("colour images of %dx%d are reduced to %dx%d; camera.max_width sets another width",
                  color.width, color.height, reduced.width, reduced.height));
+}
+
+Calibration StoredCalibration(const SequenceIndex& index, const Calibration& calibration) {
+  Calibration stored = calibration;
+  if (index.reduced_from) {
+    stored.SetRecorded(ScaledCamera(calibration.Recorded(), *index.reduced_from));
+    stored.SetUndistorted();
+  }
+  return stored;
 }
 
 }  // namespace msc_vo

@@ -42,4 +42,8 @@ bool HaveSimilarShape(const ImageSize& a, const ImageSize& b);
 void FitToImageSizes(const ImageSize& color, const ImageSize& depth, std::optional<int> max_width,
                      SequenceIndex* index, Calibration* calibration);
 
+/// Returns the calibration of the stored images for that of the images that FitToImageSizes() has
+/// reduced.
+Calibration StoredCalibration(const SequenceIndex& index, const Calibration& calibration);
+
 }  // namespace msc_vo

@@ -12,9 +12,9 @@
 #include "msc_vo/datasets/image_size_fit.h"
 #include "msc_vo/datasets/name_pairing.h"
 #include "msc_vo/datasets/pose_matrix.h"
+#include "msc_vo/datasets/sequence_calibration.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/datasets/tum_folder.h"
-#include "msc_vo/image_files/image_file.h"
 #include "msc_vo/text/files.h"
 
 namespace msc_vo {
@@ -44,8 +44,8 @@ PinholeCamera CameraOf(const Eigen::MatrixXd& k, const ImageSize& from, const Im
 void ReadIntrinsics(const fs::path& folder, SequenceIndex* index) {
   ReadFolderCamera(folder.string(), index);
   if (index->calibration || index->entries.empty()) return;
-  const ImageSize color = ReadImageSize(index->entries.front().color_path);
-  const ImageSize depth = ReadImageSize(index->entries.front().depth_path);
+  const ImageSize color = FirstImageSize(*index, ImageKind::kColor);
+  const ImageSize depth = FirstImageSize(*index, ImageKind::kDepth);
   const std::string color_file = (folder / "intrinsic" / "intrinsic_color.txt").string();
   const std::string depth_file = (folder / "intrinsic" / "intrinsic_depth.txt").string();
   Calibration calibration;

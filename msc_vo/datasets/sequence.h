@@ -11,6 +11,7 @@
 #include "msc_vo/datasets/calibration.h"
 #include "msc_vo/datasets/time_unit.h"
 #include "msc_vo/geometry/timed_pose.h"
+#include "msc_vo/image_files/image_file.h"
 #include "msc_vo/sensor/depth_limits.h"
 #include "msc_vo/sensor/depth_sensor.h"
 
@@ -57,6 +58,8 @@ struct SequenceIndex {
   int invalid_depth = 0;       ///< raw depth value for "no measurement", in addition to 0
   ClippedDepth clipped_depth;  ///< see FindClippedDepth()
   bool scale_color = false;    ///< colour is larger than depth and is scaled down to its size
+  /// Size of the stored colour images, if FitToImageSizes() reduces them; none: it does not.
+  std::optional<ImageSize> reduced_from;
   /// Depth shows the view of the colour images, whatever its size.
   bool is_same_view = false;
   /// What measured depth; kAuto: the source does not tell it.

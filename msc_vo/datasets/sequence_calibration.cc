@@ -169,8 +169,6 @@ Calibration BaseCalibration(const CameraSettings& settings, const std::string& p
   return GuessedPreset(index->preset);
 }
 
-enum class ImageKind { kColor, kDepth };
-
 ImageSize ImageSizeOf(const SequenceIndex& index, const SequenceEntry& entry, ImageKind kind) {
   const bool is_depth = kind == ImageKind::kDepth;
   if (!index.container) return ReadImageSize(is_depth ? entry.depth_path : entry.color_path);
@@ -181,8 +179,7 @@ ImageSize ImageSizeOf(const SequenceIndex& index, const SequenceEntry& entry, Im
   return {image.cols, image.rows};
 }
 
-// The size of the images of a kind: of the first one that can be read, a damaged one is left to the
-// run. None if that is none of the first few.
+// As FirstImageSize(); none if none of the first ten can be read.
 std::optional<ImageSize> FindImageSize(const SequenceIndex& index, ImageKind kind) {
   constexpr size_t kMaxTries = 10;
   for (size_t i = 0; i < std::min(index.entries.size(), kMaxTries); ++i) {
@@ -203,7 +200,7 @@ void SetMissingSize(const std::optional<ImageSize>& size, const SequenceIndex& i
     throw std::runtime_error(index.directory +
                              ": give the size of the images, camera.width and camera.height");
   }
-  const ImageSize known = size ? *size : ImageSizeOf(index, index.entries.front(), kind);
+  const ImageSize known = size ? *size : FirstImageSize(index, kind);
   camera->width = known.width;
   camera->height = known.height;
 }
@@ -222,6 +219,11 @@ void FitToImages(std::optional<int> max_width, SequenceIndex* index, Calibration
 }
 
 }  // namespace
+
+ImageSize FirstImageSize(const SequenceIndex& index, ImageKind kind) {
+  const std::optional<ImageSize> size = FindImageSize(index, kind);
+  return size ? *size : ImageSizeOf(index, index.entries.front(), kind);
+}
 
 Calibration ResolveCalibration(const CameraSettings& settings, const std::string& preset,
                                SequenceIndex* index) {

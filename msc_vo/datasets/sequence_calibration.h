@@ -21,4 +21,11 @@ namespace msc_vo {
 Calibration ResolveCalibration(const CameraSettings& settings, const std::string& preset,
                                SequenceIndex* index);
 
+enum class ImageKind { kColor, kDepth };
+
+/// Returns the size of the images of a kind: of the first one that can be read, a damaged one is
+/// left to the run. Throws std::runtime_error naming the first one if that is none of the first
+/// ten.
+ImageSize FirstImageSize(const SequenceIndex& index, ImageKind kind);
+
 }  // namespace msc_vo

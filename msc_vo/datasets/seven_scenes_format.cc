@@ -10,9 +10,9 @@
 #include "msc_vo/datasets/image_folder.h"
 #include "msc_vo/datasets/name_pairing.h"
 #include "msc_vo/datasets/pose_matrix.h"
+#include "msc_vo/datasets/sequence_calibration.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/datasets/tum_folder.h"
-#include "msc_vo/image_files/image_file.h"
 #include "msc_vo/text/files.h"
 
 namespace msc_vo {
@@ -41,7 +41,7 @@ void ReadIntrinsics(const std::string& directory, SequenceIndex* index) {
     const std::string path = (folder / "camera-intrinsics.txt").string();
     if (!HasEntry(path) || index->entries.empty()) continue;
     const Eigen::MatrixXd k = ReadMatrix(path, 3, 3);
-    const ImageSize size = ReadImageSize(index->entries.front().depth_path);
+    const ImageSize size = FirstImageSize(*index, ImageKind::kDepth);
     Calibration calibration;
     calibration.camera = {k(0, 0), k(1, 1), k(0, 2), k(1, 2), size.width, size.height};
     calibration.depth_scale = kMillimetres;

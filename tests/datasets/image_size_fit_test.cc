@@ -7,6 +7,7 @@
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
+#include "msc_vo/datasets/camera_file.h"
 #include "msc_vo/datasets/rgbd_decoder.h"
 #include "msc_vo/datasets/sequence_calibration.h"
 
@@ -91,6 +92,27 @@ TEST(ImageSizeFit, ComparesShapes) {
 }
 
 class ImageSizeFitTest : public TemporaryFolder {};
+
+TEST_F(ImageSizeFitTest, StoredCalibrationCanBeGivenAgain) {
+  WriteColor("rgb/1.0.png", 64, 48);
+  WriteDepth("depth/1.0.png", 1000, 64, 48);
+  WriteText("camera.txt", "60 61 30 24 64 48 1000 0.1 0 0 0 0\nfield_of_view 50\n");
+  SequenceIndex index = OpenSequence(Folder());
+  CameraSettings settings;
+  settings.max_width = 32;
+  const Calibration reduced = ResolveCalibration(settings, "", &index);
+  EXPECT_EQ(reduced.camera.width, 32);
+  const Calibration stored = StoredCalibration(index, reduced);
+  EXPECT_EQ(FormatCameraFile(stored, "").find("60 61 30 24 64 48"), 0u);
+  for (const std::optional<int>& width : {std::optional<int>(), std::optional<int>(32)}) {
+    SequenceIndex again = OpenSequence(Folder());
+    settings = SettingsOf(stored);
+    settings.max_width = width;
+    const Calibration calibration = ResolveCalibration(settings, "", &again);
+    EXPECT_EQ(RgbdDecoder(again, calibration).Decode(0).gray.cols, width.value_or(64));
+    EXPECT_NEAR(calibration.Recorded().fx, width ? 30.0 : 60.0, 1e-9);
+  }
+}
 
 // A surface at 1 m, and one at 2 m in the right half: no pixel has a depth between them.
 TEST_F(ImageSizeFitTest, DoesNotSmearDepthOverEdges) {
