@@ -40,11 +40,11 @@ std::vector<TimedPose> ReadTrajectory(const std::string& path, int* num_left_out
   return std::move(file.poses);
 }
 
-std::string FormatTrajectory(std::vector<TimedPose> poses) {
+std::string FormatTrajectory(std::vector<TimedPose> poses, const TimedPose& before) {
   SortByTime(&poses);
   std::string text;
   std::string previous_stamp;
-  int segment = 0, world = 0;
+  int segment = before.segment, world = before.world;
   for (const TimedPose& pose : poses) {
     const std::string stamp = Fixed(pose.timestamp, 6);
     if (stamp == previous_stamp) continue;

@@ -24,8 +24,8 @@ std::vector<TimedPose> ReadTrajectory(const std::string& path, int* num_left_out
 /// times with six decimals, ascending and unique (the first pose of a stamp is kept), unit
 /// quaternions with w >= 0. The comment "# not estimated", which other tools skip, precedes each
 /// pose that is not estimated, and "# segment 2, world 0" the first pose of a segment unless both
-/// are 0.
-std::string FormatTrajectory(std::vector<TimedPose> poses);
+/// are 0, or those of `before`, the pose before the first one.
+std::string FormatTrajectory(std::vector<TimedPose> poses, const TimedPose& before = {});
 
 /// Writes the result of FormatTrajectory() to a file. Throws std::runtime_error, naming the file,
 /// if it cannot be written.

@@ -43,7 +43,7 @@ void AppendTo(const std::string& path, const std::string& header, std::optional<
 void OnlineResults::Write() {
   if (!is_begun_) {
     MakeFolder(directory_);
-    if (!is_resumed_) RemoveResultFiles(directory_);
+    if (!is_resumed_) RemoveResultFiles(directory_, sequence_);
     WriteIdentity(directory_, sequence_);
     is_begun_ = true;
   }
@@ -65,7 +65,10 @@ void OnlineResults::AddUnwritten(const FrameResult& frame) {
   ++num_frames_;
   unwritten_rows_ += FormatFrameRow(frame);
   if (frame.status == TrackingStatus::kTracked || frame.status == TrackingStatus::kWeak) {
-    unwritten_poses_ += FormatTrajectory({{frame.timestamp, frame.cam_from_world.Inverse()}});
+    const TimedPose pose = {frame.timestamp, frame.cam_from_world.Inverse(), true, frame.segment,
+                            frame.world};
+    unwritten_poses_ += FormatTrajectory({pose}, last_pose_);
+    last_pose_ = pose;
   }
 }
 

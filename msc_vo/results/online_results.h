@@ -48,6 +48,7 @@ class OnlineResults {
   // of a resumed run, and those that could not be written.
   std::string unwritten_rows_;
   std::string unwritten_poses_;
+  TimedPose last_pose_;  // of those on disk and those that are not
   bool is_resumed_ = false;
   bool is_due_ = false;  // since the first readable image, or the last one on disk
   bool is_begun_ = false;

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 #include <iterator>
+#include <optional>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -30,13 +31,16 @@ std::string FileIn(const std::string& directory, const char* name) {
   return (std::filesystem::path(directory) / name).string();
 }
 
-// Files that every run writes. groundtruth.txt is written only for sequences with ground truth.
+// Files that every run writes.
 constexpr const char* kFilesOfEveryRun[] = {"trajectory.txt", "keyframes.txt", "frames.csv",
                                             "map.ply",        "lines.ply",     "summary.json",
                                             "report.html"};
 
 // Written by runs with planes.
 constexpr char kPlanes[] = "planes.ply";
+
+// Written for sequences with either.
+constexpr char kGroundTruth[] = "groundtruth.txt", kReference[] = "reference.txt";
 
 // Calls `write` and adds the message of its exception to `problems`, one per line.
 void TryTo(const std::function<void()>& write, std::string* problems) {
@@ -67,7 +71,7 @@ void WriteResult(const std::string& path, const std::string& content, std::uintm
 
 std::vector<std::string> ResultFileNames() {
   std::vector<std::string> names(std::begin(kFilesOfEveryRun), std::end(kFilesOfEveryRun));
-  names.insert(names.end(), {kPlanes, "groundtruth.txt", "reference.txt", "sequence.json"});
+  names.insert(names.end(), {kPlanes, kGroundTruth, kReference, "sequence.json"});
   return names;
 }
 
@@ -124,9 +128,13 @@ void RefuseToOverwriteInputs(const SequenceIndex& sequence, const std::vector<st
   RefuseToOverwrite(files, FileIn(directory, kPlanes));
 }
 
-void RemoveResultFiles(const std::string& directory) {
+void RemoveResultFiles(const std::string& directory, const SequenceIdentity& sequence) {
   std::vector<const char*> names(std::begin(kFilesOfEveryRun), std::end(kFilesOfEveryRun));
   names.push_back(kPlanes);  // would be taken for one of a run without planes
+  const std::optional<SequenceIdentity> earlier = ReadIdentity(directory);
+  if (earlier && !earlier->IsSame(sequence)) {
+    names.insert(names.end(), {kGroundTruth, kReference});
+  }
   for (const char* name : names) {
     std::error_code error;
     std::filesystem::remove(FileIn(directory, name), error);

@@ -8,6 +8,7 @@
 
 #include "msc_vo/odometry/odometry.h"
 #include "msc_vo/results/run_summary.h"
+#include "msc_vo/results/sequence_identity.h"
 #include "msc_vo/text/write_error.h"
 
 namespace msc_vo {
@@ -28,9 +29,10 @@ std::vector<std::string> ResultFileNames();
 void RefuseToOverwriteInputs(const SequenceIndex& sequence, const std::vector<std::string>& files,
                              const std::string& directory);
 
-/// Removes existing result files, except groundtruth.txt, which not every run writes. Throws
+/// Removes existing result files before a run of a sequence. groundtruth.txt and reference.txt,
+/// which not every run writes, are removed if the results are those of another sequence. Throws
 /// std::runtime_error naming the file that cannot be removed.
-void RemoveResultFiles(const std::string& directory);
+void RemoveResultFiles(const std::string& directory, const SequenceIdentity& sequence);
 
 /// Writes trajectory.txt, keyframes.txt, frames.csv, summary.json, map.ply, lines.ply and, if there
 /// are planes, planes.ply, then what only helps: with ground truth, groundtruth.txt; report.html.

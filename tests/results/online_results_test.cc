@@ -43,6 +43,24 @@ TEST_F(OnlineResultsTest, WritesEveryFrameImmediately) {
               testing::StartsWith(kUnfinishedTrajectoryComment));
 }
 
+TEST_F(OnlineResultsTest, KeepsSegmentsAndWorldsApart) {
+  OnlineResults online(Path("out"), {"/data/room", "", ""});
+  constexpr int kSegmentsAndWorlds[][2] = {{0, 0}, {1, 1}, {1, 1}, {2, 0}};
+  double stamp = 1.0;
+  for (const auto& [segment, world] : kSegmentsAndWorlds) {
+    FrameResult frame = Frame(stamp++, TrackingStatus::kTracked);
+    frame.segment = segment;
+    frame.world = world;
+    online.Add(frame);
+  }
+  const std::vector<TimedPose> poses = ReadTrajectory(Path("out/trajectory.txt"));
+  ASSERT_EQ(poses.size(), 4u);
+  for (size_t i = 0; i < poses.size(); ++i) {
+    EXPECT_EQ(poses[i].segment, kSegmentsAndWorlds[i][0]) << i;
+    EXPECT_EQ(poses[i].world, kSegmentsAndWorlds[i][1]) << i;
+  }
+}
+
 TEST_F(OnlineResultsTest, RemovesEarlierResultsAtTheFirstReadableImage) {
   for (const char* name : {"trajectory.txt", "summary.json", "groundtruth.txt", "mine.txt"}) {
     WriteText(std::string("out/") + name, "earlier");

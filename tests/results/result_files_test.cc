@@ -279,7 +279,15 @@ TEST_F(ResultFilesTest, WritesPlanesIfThereAreAny) {
   EXPECT_THAT(ReadFile(out + "/planes.ply"), HasSubstr("element face 1\n"));
   EXPECT_EQ(nlohmann::json::parse(ReadFile(out + "/summary.json"))["map"]["planes"], 1);
   EXPECT_THAT(ReadFile(out + "/report.html"), HasSubstr("\"planes\":{"));
-  RemoveResultFiles(out);
+  WriteIdentity(out, {"/data/room", "1", "2"});
+  WriteText("out/groundtruth.txt", "earlier");
+  WriteText("out/reference.txt", "earlier");
+  RemoveResultFiles(out, {"/moved/room", "1", "2"});
+  EXPECT_TRUE(std::filesystem::exists(out + "/groundtruth.txt"));
+  EXPECT_TRUE(std::filesystem::exists(out + "/reference.txt"));
+  RemoveResultFiles(out, {"/data/house", "3", "4"});
+  EXPECT_FALSE(std::filesystem::exists(out + "/groundtruth.txt"));
+  EXPECT_FALSE(std::filesystem::exists(out + "/reference.txt"));
   EXPECT_FALSE(std::filesystem::exists(out + "/planes.ply"));
 }
 
