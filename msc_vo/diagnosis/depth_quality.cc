@@ -30,7 +30,7 @@ bool IsUsual(double median) { return median >= kMinMedian && median <= kMaxMedia
 // The scales that would give a usual median depth, with the median that each gives.
 std::string LikelyScales(double median, const DepthUnits& units) {
   std::string text;
-  for (const double other : units.are_floats ? kFloatScales : kScales) {
+  for (const double other : units.CommonScales()) {
     const double other_median = median * units.per_metre / other;
     if (std::abs(other / units.per_metre - 1.0) < 0.1 || !IsUsual(other_median) ||
         other_median > 5.0) {
@@ -64,7 +64,7 @@ void AddRange(const std::vector<float>& depths, double valid, const DepthUnits& 
     return;
   }
   const std::string likely = LikelyScales(median, units);
-  const std::string option = units.are_floats ? "camera.float_depth_scale" : "depth_scale";
+  const std::string option = units.Option();
   const std::string text =
       FormatText("a median depth of %.3f m is unusual; ", median) + option +
       FormatText(units.are_floats ? " (%g units per metre)" : " (%.1f raw units per metre)",
@@ -77,6 +77,10 @@ void AddRange(const std::vector<float>& depths, double valid, const DepthUnits& 
 }
 
 }  // namespace
+
+const std::vector<double>& DepthUnits::CommonScales() const {
+  return are_floats ? kFloatScales : kScales;
+}
 
 DepthUnits FindDepthUnits(const RgbdDecoder& decoder) {
   constexpr int kMaxTries = 10;

@@ -23,6 +23,11 @@ struct DepthQuality {
 struct DepthUnits {
   double per_metre = 0.0;
   bool are_floats = false;  ///< floating-point numbers, whose units have an option of their own
+
+  /// The option that sets them.
+  const char* Option() const { return are_floats ? "camera.float_depth_scale" : "depth_scale"; }
+  /// Units per metre of common sources.
+  const std::vector<double>& CommonScales() const;
 };
 
 /// Returns the units of the first depth image that can be decoded.

@@ -23,10 +23,10 @@ constexpr double kMaxScaleError = 0.025;
 class GroundTruthComparison {
  public:
   GroundTruthComparison(const MotionTrack& track, const std::vector<TimedPose>& truth,
-                        double depth_scale, bool is_calibrated, Findings* findings)
+                        const DepthUnits& units, bool is_calibrated, Findings* findings)
       : track_(track),
         truth_(truth),
-        depth_scale_(depth_scale),
+        units_(units),
         is_calibrated_(is_calibrated),
         findings_(findings) {}
 
@@ -158,15 +158,17 @@ class GroundTruthComparison {
     }
     findings_->push_back(Warning(
         "ground_truth.scale", text,
-        FormatText("depth_scale is probably %.0f raw units per metre, not %.1f (or the ground "
-                   "truth is not in metres)",
-                   NearestScale(depth_scale_ * ratio, sigma / ratio), depth_scale_),
+        units_.Option() +
+            FormatText(units_.are_floats ? " is probably %.4g units per metre, not %.4g"
+                                         : " is probably %.0f raw units per metre, not %.1f",
+                       NearestScale(units_.per_metre * ratio, sigma / ratio), units_.per_metre) +
+            " (or the ground truth is not in metres)",
         measurement));
   }
 
   // The common scale that an estimate with a relative standard deviation means, or the estimate.
-  static double NearestScale(double scale, double sigma) {
-    for (const double common : {1000.0, 5000.0, 5208.0, 6553.5, 256.0, 10000.0, 4000.0}) {
+  double NearestScale(double scale, double sigma) const {
+    for (const double common : units_.CommonScales()) {
       if (std::abs(scale / common - 1.0) < std::max(0.005, 2.0 * sigma)) return common;
     }
     return scale;
@@ -196,7 +198,7 @@ class GroundTruthComparison {
 
   const MotionTrack& track_;
   const std::vector<TimedPose>& truth_;
-  double depth_scale_;
+  DepthUnits units_;
   bool is_calibrated_;
   Findings* findings_;
 };
@@ -204,9 +206,9 @@ class GroundTruthComparison {
 }  // namespace
 
 void AddGroundTruthMotionFindings(const MotionTrack& track, const std::vector<TimedPose>& truth,
-                                  double depth_scale, bool is_calibrated, Findings* findings) {
+                                  const DepthUnits& units, bool is_calibrated, Findings* findings) {
   if (truth.empty()) return;
-  GroundTruthComparison(track, truth, depth_scale, is_calibrated, findings).Run();
+  GroundTruthComparison(track, truth, units, is_calibrated, findings).Run();
 }
 
 }  // namespace msc_vo

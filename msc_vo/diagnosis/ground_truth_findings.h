@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "msc_vo/diagnosis/depth_quality.h"
 #include "msc_vo/diagnosis/finding.h"
 #include "msc_vo/diagnosis/motion_track.h"
 #include "msc_vo/geometry/timed_pose.h"
@@ -12,10 +13,10 @@
 namespace msc_vo {
 
 /// Compares the motion of the images with the ground truth: frame convention, time offset, scale
-/// (that of depth, with `depth_scale` raw units per metre) and hand-eye offset. Adds nothing if
+/// (that of depth in `units`) and hand-eye offset. Adds nothing if
 /// there is no ground truth. The scale is not judged unless `is_calibrated`: another error of the
 /// calibration changes lengths, too.
 void AddGroundTruthMotionFindings(const MotionTrack& track, const std::vector<TimedPose>& truth,
-                                  double depth_scale, bool is_calibrated, Findings* findings);
+                                  const DepthUnits& units, bool is_calibrated, Findings* findings);
 
 }  // namespace msc_vo

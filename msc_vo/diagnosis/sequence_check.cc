@@ -167,7 +167,7 @@ void AddMotionFindings(const RgbdDecoder& decoder, const OdometryOptions& option
     findings->push_back(
         Good(kCalibrationCheck, "calibration against motion: not tested, too few images match"));
   }
-  AddGroundTruthMotionFindings(track, decoder.index().ground_truth, calibration.depth_scale,
+  AddGroundTruthMotionFindings(track, decoder.index().ground_truth, FindDepthUnits(decoder),
                                IsCalibrated(*findings), findings);
   AddNoiseFindings(track, findings);
 }

@@ -32,19 +32,19 @@ class GroundTruthTest : public TemporaryFolder {
     track_ = TrackMotion(RgbdDecoder(index, calibration), OdometryOptions(), kNumTrackedImages);
   }
 
-  Findings Diagnose(const std::vector<TimedPose>& truth, double depth_scale = 5000.0,
+  Findings Diagnose(const std::vector<TimedPose>& truth, const DepthUnits& units = {5000.0, false},
                     bool is_calibrated = true) const {
     Findings findings;
-    AddGroundTruthMotionFindings(track_, truth, depth_scale, is_calibrated, &findings);
+    AddGroundTruthMotionFindings(track_, truth, units, is_calibrated, &findings);
     return findings;
   }
 
   Finding ExpectWarning(const std::string& check, const NamesMatcher& names,
                         const std::function<void(TimedPose*)>& change,
-                        double depth_scale = 5000.0) const {
+                        const DepthUnits& units = {5000.0, false}) const {
     std::vector<TimedPose> truth = truth_;
     for (TimedPose& pose : truth) change(&pose);
-    return ExpectFinding(Diagnose(truth, depth_scale), Severity::kWarning, check, names, check);
+    return ExpectFinding(Diagnose(truth, units), Severity::kWarning, check, names, check);
   }
 
   // Poses of a body whose origin and axes in the camera frame are given.
@@ -86,16 +86,16 @@ TEST_F(GroundTruthTest, FindsWrongPoses) {
       ExpectWarning("ground_truth.scale", Names("depth_scale", "5000.0"),
                     [](TimedPose* p) { p->world_from_cam.translation() /= 1.03; });
   EXPECT_NEAR(small.value.value_or(0.0), 1.03, 0.01);
-  ExpectWarning(
-      "ground_truth.scale", Names("depth_scale", "5000"),
-      [](TimedPose* p) { p->world_from_cam.translation() *= 5.0; }, 25000.0);
-  ExpectWarning(
-      "ground_truth.scale", Names("depth_scale", "5000"),
-      [](TimedPose* p) { p->world_from_cam.translation() /= 5.0; }, 1000.0);
+  ExpectWarning("ground_truth.scale", Names("depth_scale", "5000"),
+                [](TimedPose* p) { p->world_from_cam.translation() *= 5.0; }, {25000.0, false});
+  ExpectWarning("ground_truth.scale", Names("depth_scale", "5000"),
+                [](TimedPose* p) { p->world_from_cam.translation() /= 5.0; }, {1000.0, false});
+  ExpectWarning("ground_truth.scale", Names("camera.float_depth_scale", "1 units"),
+                [](TimedPose* p) { p->world_from_cam.translation() *= 10.0; }, {10.0, true});
   // With another error of the calibration.
   std::vector<TimedPose> scaled = truth_;
   for (TimedPose& pose : scaled) pose.world_from_cam.translation() /= 1.1;
-  const Findings uncalibrated = Diagnose(scaled, 5000.0, false);
+  const Findings uncalibrated = Diagnose(scaled, {5000.0, false}, false);
   ExpectFinding(uncalibrated, Severity::kGood, "ground_truth.scale", Names("not tested"),
                 "uncalibrated");
   EXPECT_EQ(Text(uncalibrated).find("depth_scale"), std::string::npos) << Text(uncalibrated);

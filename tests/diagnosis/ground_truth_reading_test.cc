@@ -277,7 +277,7 @@ TEST(GroundTruthFindings, TakeAxesAndMirroringForOneFault) {
       const Eigen::Matrix3d axes = turned < 0 ? Eigen::Matrix3d(Eigen::Matrix3d::Identity())
                                               : TurnAbout(Eigen::Vector3d::Unit(turned), 180);
       Findings findings;
-      AddGroundTruthMotionFindings(track, WithAxes(path, axes), 5000.0, true, &findings);
+      AddGroundTruthMotionFindings(track, WithAxes(path, axes), {5000.0, false}, true, &findings);
       int num_warnings = 0;
       for (const Finding& finding : findings) {
         num_warnings += finding.severity != Severity::kGood;
