@@ -43,14 +43,21 @@ bool AreSameFile(const std::string& a, const std::string& b) {
   return !error && path == resolve(b) && !error;
 }
 
-void RefuseToReplaceInSequence(const SequenceIndex& sequence, const std::string& file,
-                               const std::string& mark) {
-  RefuseToOverwriteSequence(sequence, file);
-  if (mark.empty() || !HasEntry(file) || !IsBelow(file, sequence.directory)) return;
-  if (ReadBeginning(file, kMarkedBytes).find(mark) != std::string::npos) return;
+void RefuseToReplaceInFolder(const std::string& folder, const std::string& file,
+                             const std::string& mark) {
+  if (!HasEntry(file) || !IsBelow(file, folder)) return;
+  namespace fs = std::filesystem;
+  if (HasEntry((fs::absolute(file).parent_path() / "sequence.json").string())) return;
+  if (!mark.empty() && ReadBeginning(file, kMarkedBytes).find(mark) != std::string::npos) return;
   throw std::runtime_error(file + ": would be written over the input: it is in the folder of the " +
                            "sequence, and no earlier result of this kind; give another path for " +
                            "the results");
+}
+
+void RefuseToReplaceInSequence(const SequenceIndex& sequence, const std::string& file,
+                               const std::string& mark) {
+  RefuseToOverwriteSequence(sequence, file);
+  RefuseToReplaceInFolder(sequence.directory, file, mark);
 }
 
 void CheckOutputFile(const std::string& file, const std::vector<std::string>& inputs,

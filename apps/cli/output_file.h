@@ -13,10 +13,14 @@ namespace msc_vo {
 /// Whether two names are those of the same file, which need not exist yet. Links are followed.
 bool AreSameFile(const std::string& a, const std::string& b);
 
-/// Throws std::runtime_error if writing `file` would destroy a part of a sequence, or any other
-/// file in its folder that is no earlier result of the same kind. Such a result has `mark` in its
-/// first kilobyte. Without a mark, earlier results cannot be recognised, and only parts of the
-/// sequence are protected.
+/// Throws std::runtime_error if `file` exists below a folder and is no earlier result of the same
+/// kind, which has `mark` in its first kilobyte, nor in a folder with results of a run. Without a
+/// mark, earlier results cannot be recognised.
+void RefuseToReplaceInFolder(const std::string& folder, const std::string& file,
+                             const std::string& mark);
+
+/// The same for the folder of a sequence; throws, too, if writing `file` would destroy a part of
+/// the sequence.
 void RefuseToReplaceInSequence(const SequenceIndex& sequence, const std::string& file,
                                const std::string& mark);
 

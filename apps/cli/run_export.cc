@@ -13,7 +13,9 @@
 #include "apps/cli/exported_features.h"
 #include "apps/cli/exported_images.h"
 #include "apps/cli/exported_map.h"
+#include "apps/cli/interrupt_guard.h"
 #include "apps/cli/modules.h"
+#include "apps/cli/output_file.h"
 #include "msc_vo/datasets/trajectory.h"
 #include "msc_vo/exports/mcap_export.h"
 #include "msc_vo/exports/mesh_ply.h"
@@ -61,7 +63,7 @@ void WarnOfMissingLines(const std::string& path, size_t num_lines) {
   if (num_lines == num_frames) return;
   PrintWarning(
       FormatText("%s: %zu of %zu poses are exported, so that lines are not the numbers of "
-                 "frames; --all-poses takes predicted ones, too",
+                 "frames; msc_vo export --all-poses takes predicted ones, too",
                  path.c_str(), num_lines, num_frames));
 }
 
@@ -188,7 +190,7 @@ void WritePly(const RunExport& arguments) {
   options.camera = decoder.calibration().camera;
   const std::unique_ptr<SurfaceFusion> fusion = LoadSurfaceFusion(options);
   if (FuseImages(decoder, images, true, fusion.get()).is_interrupted) {
-    throw std::runtime_error("interrupted; " + arguments.output + " is not written");
+    throw Interrupted("interrupted; " + arguments.output + " is not written");
   }
   WriteFile(arguments.output, FormatMeshPly(ExtractSurface(*fusion, options, false)));
 }
@@ -203,7 +205,10 @@ const std::vector<std::string>& ExportFormats() {
 
 bool IsMapFormat(const std::string& format) { return format == "colmap" || format == "g2o"; }
 
-std::string ExportMark(const std::string& format) { return format == "ply" ? kSurfaceMark : ""; }
+std::string ExportMark(const std::string& format) {
+  if (format == "nerfstudio") return kNerfstudioMark;
+  return format == "ply" ? kSurfaceMark : "";
+}
 
 void CheckExport(const RunExport& arguments, const RgbdDecoder& sequence) {
   const bool needs_images = arguments.format == "nerfstudio" || arguments.format == "ply";
@@ -232,6 +237,10 @@ void WriteExport(const RunExport& arguments) {
     inputs.push_back(FileOf(arguments.run, name));
   }
   if (!arguments.map.empty()) inputs.push_back(arguments.map);
+  if (const auto identity = ReadIdentity(arguments.run)) {
+    inputs.push_back(identity->path);
+    RefuseToReplaceInFolder(identity->path, arguments.output, ExportMark(arguments.format));
+  }
   RefuseToOverwrite(inputs, arguments.output);
   if (arguments.format == "mcap") return WriteMcap(arguments);
   if (arguments.format == "ply") return WritePly(arguments);

@@ -40,6 +40,7 @@ std::string FormatNerfstudio(const ExportedCamera& camera,
     throw std::runtime_error("nerfstudio has no rational lens (k4, k5, k6); undistort the images");
   }
   Json json;
+  json["generator"] = "msc_vo export";
   const bool is_fisheye = camera.model == "OPENCV_FISHEYE";
   json["camera_model"] = is_fisheye ? "OPENCV_FISHEYE" : "OPENCV";
   const char* const names[] = {"fl_x", "fl_y", "cx", "cy"};

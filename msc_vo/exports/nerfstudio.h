@@ -11,6 +11,9 @@
 
 namespace msc_vo {
 
+/// Is near the begin of every file that FormatNerfstudio() makes.
+inline constexpr char kNerfstudioMark[] = "\"generator\": \"msc_vo export\"";
+
 /// An image of nerfstudio's transforms.json.
 struct NerfstudioFrame {
   std::string color_path;

@@ -175,6 +175,27 @@ TEST_F(OverwritingTest, FuseReplacesOnlySurfacesInTheFolderOfTheSequence) {
 #endif
 }
 
+TEST_F(OverwritingTest, ExportReplacesOnlyFilesOfItsOwnInTheFolderOfTheSequence) {
+  Synthesize("room");
+  ASSERT_EQ(RunCommand({"replay", Path("room"), "--quiet", "--output", Path("out")}).exit_code, 0);
+  WriteText("room/transforms.json", "{\"camera_model\": \"OPENCV\"}\n");
+  WriteText("room/imu/data.csv", "#timestamp [ns]\n");
+  const auto before = Contents("room");
+  ExpectRefused({"export", Path("out"), "nerfstudio", Path("room/transforms.json")});
+  for (const char* format : {"tum", "kitti", "euroc", "mcap"}) {
+    ExpectRefused({"export", Path("out"), format, Path("room/imu/data.csv")});
+    ExpectRefused({"export", Path("out"), format, Path("room/rgb/1.000000.png")});
+  }
+  EXPECT_EQ(Contents("room"), before);
+  for (int i = 0; i < 2; ++i) {
+    const CommandOutcome outcome =
+        RunCommand({"export", Path("out"), "nerfstudio", Path("room/mine.json")});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  }
+  WriteText("out.csv", "mine\n");
+  EXPECT_EQ(RunCommand({"export", Path("out"), "euroc", Path("out.csv")}).exit_code, 0);
+}
+
 TEST_F(OverwritingTest, CalibrateReplacesOnlyCamerasInTheFolderOfTheSequence) {
   Synthesize("room");
   WriteText("room/plot.html", "<title>A plot</title>");
