@@ -69,11 +69,15 @@ std::function<std::string(const Keyframe&)> ImageNames(const RunExport& argument
     if (keyframe.frame->camera.width != decoder->calibration().camera.width) {
       throw std::runtime_error(directory + ": its images have another size than those of the map");
     }
-    return fs::path(nearest->color_path).lexically_relative(directory).string();
+    return ColmapImageName(decoder->index(), *nearest);
   };
 }
 
 }  // namespace
+
+std::string ColmapImageName(const SequenceIndex& index, const SequenceEntry& entry) {
+  return fs::path(entry.color_path).lexically_relative(index.directory).string();
+}
 
 void WriteMapExport(const RunExport& arguments) {
   if (IsFolder(arguments.map)) {
@@ -88,9 +92,10 @@ void WriteMapExport(const RunExport& arguments) {
     return;
   }
   const ColmapModel model = MakeColmapModel(submap.map, ImageNames(arguments));
+  const std::vector<ModelFile> files =
+      arguments.binary ? FormatColmapBinary(model) : FormatColmapText(model);
   MakeFolder(arguments.output);
-  for (const ModelFile& file :
-       arguments.binary ? FormatColmapBinary(model) : FormatColmapText(model)) {
+  for (const ModelFile& file : files) {
     const std::string path = (fs::path(arguments.output) / file.name).string();
     RefuseToOverwrite({arguments.map}, path);
     WriteFile(path, file.content);

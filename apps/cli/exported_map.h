@@ -3,9 +3,15 @@
 
 #pragma once
 
+#include <string>
+
 #include "apps/cli/run_export.h"
+#include "msc_vo/datasets/sequence.h"
 
 namespace msc_vo {
+
+/// The name of an image in the model of COLMAP: its path in the folder of the sequence.
+std::string ColmapImageName(const SequenceIndex& index, const SequenceEntry& entry);
 
 /// Writes colmap or g2o of a map file. Throws std::runtime_error, naming the file and the fix.
 void WriteMapExport(const RunExport& arguments);

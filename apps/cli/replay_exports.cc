@@ -6,7 +6,11 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "apps/cli/command_log.h"
+#include "apps/cli/interrupt_guard.h"
+#include "apps/cli/exported_map.h"
 #include "apps/cli/output_file.h"
+#include "msc_vo/exports/colmap_model.h"
 #include "msc_vo/text/files.h"
 
 namespace msc_vo {
@@ -30,6 +34,11 @@ void CheckBeforeRun(const RunExport& one, const ReplayArguments& arguments,
     return CheckOutputFile(one.output, inputs, {sequence.index()}, ExportMark(one.format));
   }
   RefuseToOverwrite(InputFolders(sequence.index()), one.output);
+  if (!one.sequence.directory.empty()) {  // whose images are named
+    for (const SequenceEntry& entry : sequence.index().entries) {
+      RequireColmapTextName(ColmapImageName(sequence.index(), entry));
+    }
+  }
   MakeFolder(one.output);
 }
 
@@ -77,16 +86,19 @@ std::vector<RunExport> PlanExports(const ReplayArguments& arguments, const RgbdD
   return exports;
 }
 
-void WriteExports(const std::vector<RunExport>& exports) {
-  std::string problems;
+bool WriteExports(const std::vector<RunExport>& exports) {
+  bool are_written = true;
   for (const RunExport& one : exports) {
     try {
       WriteExport(one);
+    } catch (const Interrupted&) {
+      throw;
     } catch (const std::exception& error) {
-      problems += (problems.empty() ? "" : "\n") + NameOf(one) + ": " + error.what();
+      PrintError(NameOf(one) + ": " + error.what());
+      are_written = false;
     }
   }
-  if (!problems.empty()) throw std::runtime_error(problems);
+  return are_written;
 }
 
 }  // namespace msc_vo

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <stdexcept>
 
 #include "msc_vo/exports/little_endian_bytes.h"
 #include "msc_vo/text/format_text.h"
@@ -70,6 +71,7 @@ std::string FormatImages(const ColmapModel& model) {
       "POINT3D_ID)\n";
   for (size_t i = 0; i < model.images.size(); ++i) {
     const ColmapModel::Image& image = model.images[i];
+    RequireColmapTextName(image.name);
     const Eigen::Vector4d q = image.cam_from_world.rotation().coeffs().array() + 0.0;  // no -0
     const Eigen::Vector3d t = image.cam_from_world.translation().array() + 0.0;
     text += FormatText("%zu %.12g %.12g %.12g %.12g %.12g %.12g %.12g %d %s\n", i + 1, q.w(), q.x(),
@@ -177,6 +179,13 @@ ColmapModel MakeColmapModel(const Map& map,
     model.points.push_back(std::move(point));
   }
   return model;
+}
+
+void RequireColmapTextName(const std::string& name) {
+  if (name.find_first_of(" \t\r\n") == std::string::npos) return;
+  throw std::runtime_error("'" + name +
+                           "': the text form of COLMAP has no names with blanks; rename the "
+                           "images, or use msc_vo export with --binary");
 }
 
 std::vector<ModelFile> FormatColmapText(const ColmapModel& model) {

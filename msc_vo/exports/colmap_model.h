@@ -48,6 +48,9 @@ struct ModelFile {
   std::string name;
   std::string content;
 };
+/// Throws std::runtime_error if the name of an image has blanks, at which readers split the lines.
+void RequireColmapTextName(const std::string& name);
+/// Throws std::runtime_error as RequireColmapTextName().
 std::vector<ModelFile> FormatColmapText(const ColmapModel& model);
 std::vector<ModelFile> FormatColmapBinary(const ColmapModel& model);
 

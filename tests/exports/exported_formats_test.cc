@@ -8,6 +8,7 @@
 #include <memory>
 #include <utility>
 
+#include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -161,6 +162,12 @@ TEST_F(ColmapModelTest, ItsGraphHasTheCamerasInTheWorld) {
   EXPECT_THAT(graph, testing::StartsWith("VERTEX_SE3:QUAT 0 0 0 0 0 0 0 1\n"));
   // Scalar last, and the camera has turned to its right.
   EXPECT_THAT(graph, testing::HasSubstr("\nVERTEX_SE3:QUAT 1 1 2 3 0 0.707106781 0 0.707106781\n"));
+}
+
+TEST_F(ColmapModelTest, OnlyItsBinaryFormHasNamesWithBlanks) {
+  const ColmapModel model = MakeColmapModel(map_, [](const Keyframe&) { return "left 1.png"; });
+  EXPECT_THAT(MessageOf([&] { FormatColmapText(model); }), Names("'left 1.png'", "--binary"));
+  EXPECT_EQ(FormatColmapBinary(model).size(), 3u);
 }
 
 TEST_F(ColmapModelTest, IsTheSameAsTextAndBinary) {
