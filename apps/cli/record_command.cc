@@ -17,6 +17,7 @@
 #include "apps/cli/sequence_arguments.h"
 #include "msc_vo/datasets/camera_source.h"
 #include "msc_vo/datasets/trajectory.h"
+#include "msc_vo/datasets/tum_folder.h"
 #include "msc_vo/datasets/tum_writer.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
@@ -85,6 +86,23 @@ void RecordCamera(const RecordArguments& arguments, const RgbdDecoder& decoder,
   progress.Finish();
 }
 
+// Depth in metres is written with a scale of its own, whatever that of the calibration, which it
+// does not use.
+Calibration RecordedCalibration(const RgbdDecoder& decoder) {
+  constexpr double kUnitsPerMetre = 5000.0;
+  Calibration calibration = decoder.calibration();
+  if (decoder.index().clipped_depth.is_metric) calibration.depth_scale = kUnitsPerMetre;
+  calibration.depth_sensor = decoder.index().depth_sensor;
+  return calibration;
+}
+
+void WriteTruth(const SequenceIndex& index, const std::string& folder) {
+  if (index.ground_truth.empty()) return;
+  const std::string comment =
+      index.reference.empty() ? "" : "# " + (kReferenceComment + index.reference) + "\n";
+  WriteFile(folder + "/" + TruthFileName(index), comment + FormatTrajectory(index.ground_truth));
+}
+
 // The folder of the masks that were recorded; empty: none.
 std::string MaskFolder(const RecordArguments& arguments, const TumWriter& writer) {
   if (arguments.sequence.mask.empty() || writer.num_pairs() == 0) return "";
@@ -124,12 +142,9 @@ int Run(const RecordArguments& arguments) {
   PrintWarnings(decoder.Warnings());
   RefuseToOverwrite(InputFolders(decoder.index()), arguments.folder);
   const InterruptGuard interrupt;
-  TumWriter writer(arguments.folder, decoder.calibration(),
+  TumWriter writer(arguments.folder, RecordedCalibration(decoder),
                    "recorded by msc_vo from " + decoder.index().directory);
-  if (!decoder.index().ground_truth.empty()) {
-    WriteTrajectory(arguments.folder + "/" + TruthFileName(decoder.index()),
-                    decoder.index().ground_truth);
-  }
+  WriteTruth(decoder.index(), arguments.folder);
   Recording recording;
   try {
     if (decoder.index().camera) {

@@ -10,6 +10,7 @@
 
 #include "msc_vo/camera/lens_distortion.h"
 #include "msc_vo/sensor/depth_camera.h"
+#include "msc_vo/sensor/depth_sensor.h"
 
 namespace msc_vo {
 
@@ -36,6 +37,7 @@ struct Calibration {
   /// Horizontal field of view of the undistorted images, degrees, as given; none: the default of
   /// UndistortedCamera().
   std::optional<double> field_of_view = {};
+  DepthSensor depth_sensor = DepthSensor::kAuto;  ///< what measured depth; kAuto: not given
 
   /// Intrinsics and size of the recorded colour images.
   const PinholeCamera& Recorded() const { return distortion.Recorded(camera); }

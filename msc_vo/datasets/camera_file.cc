@@ -4,7 +4,9 @@
 #include "msc_vo/datasets/camera_file.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <vector>
 
@@ -61,15 +63,23 @@ LensDistortion ParseLensLine(TextLine line) {
   return lens;
 }
 
+// Reads a line 'NAME VALUE'; `unit` names the value in the message.
+double ParseValueLine(const TextLine& line, const std::string& unit) {
+  const std::optional<double> value =
+      line.fields.size() == 2 ? ParseNumber(line.fields[1]) : std::nullopt;
+  if (!value || !std::isfinite(*value)) {
+    line.Fail("expected '" + line.fields[0] + " " + unit + "'");
+  }
+  return *value;
+}
+
 // Reads the lines of the lens and of the field of view, which may come in any order.
 void ParseLens(const std::vector<TextLine>& lines, Calibration* calibration) {
   const TextLine *lens_line = nullptr, *view_line = nullptr;
   for (size_t i = 1; i < lines.size(); ++i) {
     const std::string& name = lines[i].fields[0];
     if (name != "lens" && name != "field_of_view") continue;
-    const TextLine*& line = name == "lens" ? lens_line : view_line;
-    if (line != nullptr) lines[i].Fail("a second line " + name + "; remove it");
-    line = &lines[i];
+    (name == "lens" ? lens_line : view_line) = &lines[i];
   }
   if (lens_line != nullptr) {
     if (lines[0].fields.size() > 7) {
@@ -77,12 +87,7 @@ void ParseLens(const std::vector<TextLine>& lines, Calibration* calibration) {
     }
     calibration->distortion = ParseLensLine(*lens_line);
   }
-  if (view_line != nullptr) {
-    if (view_line->fields.size() == 2) {
-      calibration->field_of_view = ParseNumber(view_line->fields[1]);
-    }
-    if (!calibration->field_of_view) view_line->Fail("expected 'field_of_view DEGREES'");
-  }
+  if (view_line != nullptr) calibration->field_of_view = ParseValueLine(*view_line, "DEGREES");
   if (lens_line == nullptr && view_line == nullptr) return;
   std::string error;
   if (calibration->field_of_view && !IsValidFieldOfView(*calibration->field_of_view, &error)) {
@@ -92,13 +97,15 @@ void ParseLens(const std::vector<TextLine>& lines, Calibration* calibration) {
   if (!calibration->IsValid(&error)) (lens_line != nullptr ? lens_line : view_line)->Fail(error);
 }
 
-// Reads the line of the readout time.
-void ParseReadoutLine(const TextLine& line, Calibration* calibration) {
-  std::optional<double> seconds;
-  if (line.fields.size() == 2) seconds = ParseNumber(line.fields[1]);
-  if (!seconds) line.Fail("expected 'readout_time SECONDS'");
-  calibration->readout_time = seconds;
-  calibration->readout_origin = line.file;
+// Reads the line of the depth sensor.
+DepthSensor ParseDepthSensorLine(const TextLine& line) {
+  std::string names;
+  for (const DepthSensor sensor : {DepthSensor::kStructuredLight, DepthSensor::kTimeOfFlight,
+                                   DepthSensor::kStereo, DepthSensor::kLidar}) {
+    if (line.fields.size() == 2 && line.fields[1] == ToString(sensor)) return sensor;
+    names += std::string(names.empty() ? "" : "|") + ToString(sensor);
+  }
+  line.Fail("expected 'depth_sensor " + names + "'");
 }
 
 // Reads the line of the depth camera.
@@ -127,19 +134,21 @@ void ParseDepthCameraLine(TextLine line, Calibration* calibration) {
   calibration->depth_camera = depth_camera;
 }
 
-// Reads the line of the lens of the depth camera.
-void ParseDepthLens(const std::vector<TextLine>& lines, Calibration* calibration) {
-  bool is_given = false;
-  for (size_t i = 1; i < lines.size(); ++i) {
-    if (lines[i].fields[0] != "depth_lens") continue;
-    if (is_given) lines[i].Fail("a second line depth_lens; remove it");
-    is_given = true;
+// Reads the lines that describe the depth camera further.
+void ParseDepthCameraDetails(const std::vector<TextLine>& lines, Calibration* calibration) {
+  for (const TextLine& line : lines) {
+    const std::string& name = line.fields[0];
+    if (name != "depth_lens" && name != "inverse_depth_offset") continue;
     if (!calibration->depth_camera) {
-      lines[i].Fail(std::string("the lens of a depth camera needs the line ") + kDepthCameraFormat);
+      line.Fail(name + " needs the line " + kDepthCameraFormat);
     }
-    calibration->depth_camera->distortion = ParseLensLine(lines[i]);
+    if (name == "depth_lens") {
+      calibration->depth_camera->distortion = ParseLensLine(line);
+    } else {
+      calibration->depth_camera->inverse_depth_offset = ParseValueLine(line, "1/METRES");
+    }
     std::string error;
-    if (!calibration->IsValid(&error)) lines[i].Fail(error);
+    if (!calibration->IsValid(&error)) line.Fail(error);
   }
 }
 
@@ -147,19 +156,31 @@ void ParseDepthLens(const std::vector<TextLine>& lines, Calibration* calibration
 void ParseOptionalLine(const TextLine& line, Calibration* calibration) {
   const std::string& name = line.fields[0];
   if (name == "readout_time") {
-    if (calibration->readout_time) line.Fail("a second line readout_time; remove it");
-    ParseReadoutLine(line, calibration);
+    calibration->readout_time = ParseValueLine(line, "SECONDS");
+    calibration->readout_origin = line.file;
   } else if (name == "depth_camera") {
-    if (calibration->depth_camera) line.Fail("a second line depth_camera; remove it");
     ParseDepthCameraLine(line, calibration);
-  } else if (name != "lens" && name != "field_of_view" && name != "depth_lens") {
+  } else if (name == "depth_sensor") {
+    calibration->depth_sensor = ParseDepthSensorLine(line);
+  } else if (name != "lens" && name != "field_of_view" && name != "depth_lens" &&
+             name != "inverse_depth_offset") {
     line.Fail(std::string("expected 'readout_time SECONDS', ") + kDepthCameraFormat +
               ", 'lens MODEL COEFFICIENTS', 'field_of_view DEGREES', 'depth_lens MODEL "
-              "COEFFICIENTS' or nothing after the line " +
+              "COEFFICIENTS', 'inverse_depth_offset 1/METRES', 'depth_sensor NAME' or nothing "
+              "after the line " +
               kCameraFileFormat);
   }
   std::string error;
   if (!calibration->IsValid(&error)) line.Fail(error);
+}
+
+// Throws std::runtime_error if two lines after the first one begin with the same word.
+void RefuseRepeatedLines(const std::vector<TextLine>& lines) {
+  std::set<std::string> names;
+  for (size_t i = 1; i < lines.size(); ++i) {
+    const std::string& name = lines[i].fields[0];
+    if (!names.insert(name).second) lines[i].Fail("a second line " + name + "; remove it");
+  }
 }
 
 // The numbers, a blank before each.
@@ -187,9 +208,10 @@ Calibration ReadCameraFile(const std::string& path) {
     throw std::runtime_error(path + ": is empty; expected one line " + kCameraFileFormat);
   }
   Calibration calibration = ParseIntrinsicsLine(lines[0]);
+  RefuseRepeatedLines(lines);
   ParseLens(lines, &calibration);
   for (size_t i = 1; i < lines.size(); ++i) ParseOptionalLine(lines[i], &calibration);
-  ParseDepthLens(lines, &calibration);
+  ParseDepthCameraDetails(lines, &calibration);
   return calibration;
 }
 
@@ -215,6 +237,11 @@ std::string FormatCameraFile(const Calibration& calibration, const std::string& 
             FormatNumbers({t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()}) + "\n";
     const LensDistortion& depth_lens = calibration.depth_camera->distortion;
     if (!depth_lens.IsZero()) text += "depth_lens " + FormatLens(depth_lens) + "\n";
+    const double offset = calibration.depth_camera->inverse_depth_offset;
+    if (offset != 0.0) text += "inverse_depth_offset" + FormatNumbers({offset}) + "\n";
+  }
+  if (calibration.depth_sensor != DepthSensor::kAuto) {
+    text += std::string("depth_sensor ") + ToString(calibration.depth_sensor) + "\n";
   }
   // Numbers come first, for readers that do not skip comments.
   return text + "# fx fy cx cy width height depth_scale [k1 k2 p1 p2 k3]\n# " + comment + "\n";

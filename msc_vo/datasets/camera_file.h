@@ -22,8 +22,9 @@ inline constexpr char kDepthCameraFormat[] =
 /// SECONDS' and 'depth_camera fx fy cx cy width height tx ty tz [qx qy qz qw]', the camera of depth
 /// images that are not registered and its transform depth_from_color (metres; without a quaternion,
 /// the axes are parallel). Further optional lines are 'lens MODEL COEFFICIENTS' instead of the
-/// distortion of the first line, 'field_of_view DEGREES' of the undistorted images, and 'depth_lens
-/// MODEL COEFFICIENTS' for the depth camera; see LensModelName() and LensCoefficientNames().
+/// distortion of the first line, 'field_of_view DEGREES' of the undistorted images, 'depth_lens
+/// MODEL COEFFICIENTS' and 'inverse_depth_offset 1/METRES' for the depth camera, see
+/// LensModelName(), LensCoefficientNames(), DepthCamera; and 'depth_sensor NAME', see DepthSensor.
 /// Comments start with #. Throws std::runtime_error naming file, line and fix.
 Calibration ReadCameraFile(const std::string& path);
 

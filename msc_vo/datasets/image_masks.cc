@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include <opencv2/imgproc.hpp>
+
 #include "msc_vo/datasets/image_folder.h"
 #include "msc_vo/datasets/image_size_fit.h"
 #include "msc_vo/datasets/sequence.h"
@@ -99,6 +101,24 @@ cv::Mat ImageMasks::Read(const std::string& color_path, const ImageSize& size) c
   throw std::runtime_error(path + FormatText(": is %dx%d, which is not the shape of the images of "
                                              "%dx%d; make masks of the size of the images",
                                              mask.cols, mask.rows, size.width, size.height));
+}
+
+cv::Mat ScaledMask(const cv::Mat& mask, const cv::Size& size) {
+  cv::Mat counts;  // of masked pixels above and to the left
+  cv::integral(cv::min(mask, 1), counts, CV_32S);
+  cv::Mat scaled(size, CV_8UC1);
+  for (int y = 0; y < size.height; ++y) {
+    const int top = y * mask.rows / size.height;
+    const int bottom = ((y + 1) * mask.rows + size.height - 1) / size.height;
+    for (int x = 0; x < size.width; ++x) {
+      const int left = x * mask.cols / size.width;
+      const int right = ((x + 1) * mask.cols + size.width - 1) / size.width;
+      const int count = counts.at<int>(bottom, right) - counts.at<int>(top, right) -
+                        counts.at<int>(bottom, left) + counts.at<int>(top, left);
+      scaled.at<uint8_t>(y, x) = count > 0 ? 255 : 0;
+    }
+  }
+  return scaled;
 }
 
 std::shared_ptr<const ImageMasks> OpenMasks(const std::string& path, bool zero,

@@ -195,6 +195,8 @@ StoredRgbd RgbdDecoder::ReadForExport(int i) const {
       const cv::Size size(calibration_.camera.width, calibration_.camera.height);
       cv::resize(color, color, size, 0.0, 0.0, cv::INTER_AREA);
       stored.color = {"", color};
+    } else if (!IsPng(stored.color.bytes) && !IsJpeg(stored.color.bytes)) {
+      stored.color = {"", DecodeStored(stored.color, entry.color_path, entry)};
     }
     const DepthLimits& limits = index_.clipped_depth.limits;
     const bool is_changed =
@@ -260,10 +262,7 @@ RgbdImage RgbdDecoder::MakeImage(int i, const SequenceEntry& entry, cv::Mat colo
   if (index_.masks) {
     cv::Mat mask = index_.masks->Read(entry.color_path, recorded_size);
     if (index_.container) mask = index_.container->AlignMask(entry.color_index, mask);
-    // A pixel that is mixed from masked ones is masked.
-    cv::resize(mask, image.mask, image.gray.size(), 0.0, 0.0,
-               mask.cols > image.gray.cols ? cv::INTER_AREA : cv::INTER_NEAREST_EXACT);
-    image.mask = image.mask > 0;
+    image.mask = ScaledMask(mask, image.gray.size());
     RemoveMaskedDepth(&image);
   }
   return image;

@@ -61,8 +61,9 @@ class RgbdDecoder {
   /// size than the camera, or of the wrong bit depth.
   RgbdImage Decode(int i) const;
 
-  /// Returns entry i for a copy of the sequence: as it is stored, unless the index says that colour
-  /// has to be scaled or that depth has other values than 0 for no measurement. Depth is whole
+  /// Returns entry i for a copy of the sequence: PNG and JPEG as they are stored, unless the index
+  /// says that colour has to be scaled or that depth has other values than 0 for no measurement;
+  /// otherwise pixels. Depth is whole
   /// where the mask leaves it out. Throws UnreadableImage as Decode() does.
   StoredRgbd ReadForExport(int i) const;
 

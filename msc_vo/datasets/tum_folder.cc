@@ -17,6 +17,7 @@
 #include "msc_vo/datasets/time_unit.h"
 #include "msc_vo/datasets/trajectory_format.h"
 #include "msc_vo/text/files.h"
+#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 
@@ -36,8 +37,15 @@ std::vector<double> StampsOf(const std::vector<Item>& items, double Item::*stamp
 double StampsPerSecond(const std::string& name, const std::vector<double>& stamps,
                        WholeStamps whole, const std::optional<TimeRange>& images,
                        double max_interval, SequenceIndex* index) {
-  if (whole == WholeStamps::kFrameNumbers && AreFrameNumbers(stamps)) return kDefaultFrameRate;
   const TimeUnit unit = GuessTimeUnit(stamps, images, max_interval);
+  const auto overlap_at = [&](double rate) {
+    const TimeRange range = RangeOf(stamps, unit);
+    return images ? Overlap({range.begin / rate, range.end / rate, unit}, *images) : 1.0;
+  };
+  if (whole == WholeStamps::kFrameNumbers && AreFrameNumbers(stamps) &&
+      overlap_at(kDefaultFrameRate) >= overlap_at(UnitsPerSecond(unit))) {
+    return kDefaultFrameRate;
+  }
   if (!images) index->stamp_unit = unit;
   if (!images && unit == TimeUnit::kSeconds && AreFrameNumbers(stamps)) {
     index->warnings.push_back(name +
@@ -82,6 +90,17 @@ ImageLists ReadLists(const fs::path& folder, std::vector<std::string>* warnings)
   return {ReadImageList(color, warnings), ReadImageList(depth, warnings)};
 }
 
+// Reads the reference that `record` writes, whose first comment says what it is. A file of another
+// origin is none of the sequence.
+void ReadReferenceFile(const std::string& path, WholeStamps whole, SequenceIndex* index) {
+  if (!HasEntry(path)) return;
+  const std::vector<TextLine> lines = ReadTextLines(path);
+  const std::string begin = kReferenceComment;
+  if (lines.empty() || lines[0].comment.rfind(begin, 0) != 0) return;
+  ReadGroundTruthFile(path, whole, index);
+  index->reference = lines[0].comment.substr(begin.size());
+}
+
 }  // namespace
 
 void ReadTumEntries(const std::string& directory, WholeStamps whole, SequenceIndex* index) {
@@ -101,7 +120,11 @@ void ReadTumEntries(const std::string& directory, WholeStamps whole, SequenceInd
 void ReadTumGroundTruth(const std::string& directory, WholeStamps whole, SequenceIndex* index) {
   const std::string path = (fs::path(directory) / "groundtruth.txt").string();
   const std::string truth = HasEntry(path) ? path : FindFreiburgTruth(directory);
-  if (!truth.empty()) ReadGroundTruthFile(truth, whole, index);
+  if (!truth.empty()) {
+    ReadGroundTruthFile(truth, whole, index);
+  } else {
+    ReadReferenceFile((fs::path(directory) / "reference.txt").string(), whole, index);
+  }
 }
 
 void ReadGroundTruthFile(const std::string& path, WholeStamps whole, SequenceIndex* index) {
@@ -120,7 +143,10 @@ void ReadGroundTruthFile(const std::string& path, WholeStamps whole, SequenceInd
 
 void ReadFolderCamera(const std::string& directory, SequenceIndex* index) {
   const std::string path = (fs::path(directory) / "camera.txt").string();
-  if (HasEntry(path)) index->calibration = ReadCameraFile(path);
+  if (!HasEntry(path)) return;
+  index->calibration = ReadCameraFile(path);
+  const DepthSensor sensor = index->calibration->depth_sensor;
+  if (sensor != DepthSensor::kAuto) index->depth_sensor = sensor;
 }
 
 std::string FindFreiburgTruth(const std::string& directory) {

@@ -23,8 +23,11 @@ enum class WholeStamps {
 /// nanoseconds to seconds, with a warning.
 void ReadTumEntries(const std::string& directory, WholeStamps whole, SequenceIndex* index);
 
-/// Reads groundtruth.txt or *.gt.freiburg if one exists; converts stamps like ReadTumEntries(),
-/// which must be called first.
+/// Begin of the first comment in the reference.txt of a folder; SequenceIndex::reference follows.
+inline constexpr char kReferenceComment[] = "poses of ";
+
+/// Reads groundtruth.txt, *.gt.freiburg or reference.txt if one exists; converts stamps like
+/// ReadTumEntries(), which must be called first.
 void ReadTumGroundTruth(const std::string& directory, WholeStamps whole, SequenceIndex* index);
 
 /// Reads a trajectory as ground truth. The entries must be known: their time range tells the unit

@@ -22,11 +22,11 @@ class TumWriter {
   TumWriter(const std::string& folder, const Calibration& calibration, const std::string& comment);
 
   /// Writes a pair of images with their times in seconds, which must differ from those before.
-  /// Encoded images are written as they are, pixels as PNG; depth in metres is converted to the
-  /// depth scale of the calibration. Throws std::runtime_error naming the file, for instance
-  /// because the disk is full; the folder then holds the pairs before. `mask`: CV_8UC1, of the
-  /// size of the colour image, not 0: left out; empty: none. It is written with the name of the
-  /// colour image, as ImageMasks reads it.
+  /// Encoded images are written as they are, which must be PNG or JPEG; pixels as PNG. Depth in
+  /// metres is converted to the depth scale of the calibration. Throws std::runtime_error naming
+  /// the file, for instance because the disk is full; the folder then holds the pairs before.
+  /// `mask`: CV_8UC1, of the size of the colour image, not 0: left out; empty: none. It is written
+  /// with the name of the colour image, as ImageMasks reads it.
   void Add(double color_time, double depth_time, const StoredImage& color, const StoredImage& depth,
            const cv::Mat& mask = {});
 

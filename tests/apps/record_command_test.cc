@@ -56,6 +56,38 @@ TEST_F(RecordCommandTest, CopiesASequence) {
   EXPECT_EQ(ReadFile(Path("out_room/trajectory.txt")), ReadFile(Path("out_copy/trajectory.txt")));
 }
 
+TEST_F(RecordCommandTest, WritesImagesOfOtherFormatsAsPng) {
+  Synthesize(2);
+  const cv::Mat color = cv::imread(Path("room/rgb/1.000000.png"), cv::IMREAD_UNCHANGED);
+  for (const char* name : {"rgb/1.000000.bmp", "rgb/1.033333.tiff"}) {
+    cv::imwrite(Path(std::string("room/") + name), color);
+  }
+  const std::string depth = "room/depth/1.000000.png", second = "room/depth/1.033333.png";
+  ASSERT_TRUE(HasEntry(Path(depth)) && HasEntry(Path(second)));
+  WriteText("room/associations.txt",
+            "1.0 rgb/1.000000.bmp 1.0 depth/1.000000.png\n"
+            "1.033333 rgb/1.033333.tiff 1.033333 depth/1.033333.png\n");
+  EXPECT_EQ(RunCommand({"record", Path("room"), Path("copy")}).exit_code, 0);
+  for (const char* name : {"copy/rgb/1.000000.png", "copy/rgb/1.033333.png"}) {
+    EXPECT_EQ(ReadFile(Path(name)).substr(1, 3), "PNG") << name;
+    EXPECT_EQ(cv::norm(cv::imread(Path(name), cv::IMREAD_UNCHANGED), color, cv::NORM_INF), 0.0);
+  }
+}
+
+TEST_F(RecordCommandTest, WritesDepthInMetresWithItsOwnScale) {
+  Synthesize(1);
+  cv::Mat depth(120, 160, CV_32FC1, cv::Scalar(8.0));
+  depth.colRange(0, 80).setTo(2.0f);
+  cv::imwrite(Path("room/depth/1.tiff"), depth);
+  WriteText("room/associations.txt", "1.0 rgb/1.000000.png 1.0 depth/1.tiff\n");
+  const CommandOutcome outcome = RunCommand(
+      {"record", Path("room"), Path("copy"), "--set", "camera.depth_scale=10000", "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const cv::Mat raw = cv::imread(Path("copy/depth/1.000000.png"), cv::IMREAD_UNCHANGED);
+  EXPECT_EQ(raw.at<uint16_t>(60, 120), 40000);
+  EXPECT_EQ(ReadTextLines(Path("copy/camera.txt")).at(0).fields.at(6), "5000");
+}
+
 // The recording with its masks gives the poses of the source with its own.
 TEST_F(RecordCommandTest, RecordsMasks) {
   Synthesize(6);

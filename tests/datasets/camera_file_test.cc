@@ -156,6 +156,26 @@ TEST_F(CameraFileTest, ReadsLens) {
             calibration.depth_camera->distortion.k);
 }
 
+TEST_F(CameraFileTest, KeepsOffsetAndSensorOfDepth) {
+  const std::string camera = "525 525 320 240 640 480 1000\n";
+  const std::string depth = "depth_camera 585 586 321 241 512 424 -0.025 0.001 0.002\n";
+  WriteText("camera.txt", camera + "inverse_depth_offset 0.02\ndepth_sensor lidar\n" + depth);
+  Calibration calibration = ReadCameraFile(Path("camera.txt"));
+  EXPECT_EQ(calibration.depth_camera->inverse_depth_offset, 0.02);
+  EXPECT_EQ(calibration.depth_sensor, DepthSensor::kLidar);
+  WriteText("copy.txt", FormatCameraFile(calibration, "copy"));
+  calibration = ReadCameraFile(Path("copy.txt"));
+  EXPECT_EQ(calibration.depth_camera->inverse_depth_offset, 0.02);
+  EXPECT_EQ(calibration.depth_sensor, DepthSensor::kLidar);
+
+  EXPECT_THAT(ErrorOf(camera + "inverse_depth_offset 0.02\n"),
+              Names("camera.txt:2", "inverse_depth_offset", "depth_camera"));
+  EXPECT_THAT(ErrorOf(camera + depth + "inverse_depth_offset nan\n"),
+              Names("camera.txt:3", "inverse_depth_offset", "METRES"));
+  EXPECT_THAT(ErrorOf(camera + "depth_sensor auto\n"),
+              Names("camera.txt:2", "depth_sensor", "structured-light|tof|stereo|lidar"));
+}
+
 TEST_F(CameraFileTest, WritesTheShortestNumbersThatAreReadAsTheSame) {
   Calibration calibration;
   calibration.camera = {525.1, 525.2, 319.3, 239.7, 640, 480};
@@ -191,8 +211,9 @@ TEST_F(CameraFileTest, RejectsImpossibleLenses) {
   EXPECT_THAT(ErrorOf(camera + lens + lens), Names("camera.txt:3", "second", "lens"));
   EXPECT_THAT(ErrorOf("300 301 322 238 640 480 1000 0.1 0 0 0 0\n" + lens),
               Names("camera.txt:2", "first line", "lens", "k1 k2 p1 p2 k3"));
-  EXPECT_THAT(ErrorOf(camera + "depth_lens fisheye 0 0 0 0\n"),
-              AllOf(Names("camera.txt:2", "lens", "depth_camera"), Not(Names("readout_time"))));
+  EXPECT_THAT(
+      ErrorOf(camera + "depth_lens fisheye 0 0 0 0\n"),
+      AllOf(Names("camera.txt:2", "depth_lens", "depth_camera"), Not(Names("readout_time"))));
 }
 
 }  // namespace

@@ -70,6 +70,25 @@ TEST_F(ImageMasksTest, MayHaveColoursNumbersOfObjectsAndAnotherSize) {
   }
 }
 
+TEST(ScaledMask, LeavesOutPixelsThatAreMaskedInPart) {
+  const auto columns = [](int cols, int masked, int to) {
+    cv::Mat mask(3, cols, CV_8UC1, cv::Scalar(0));
+    mask.col(masked) = 255;
+    const cv::Mat scaled = ScaledMask(mask, {to, 4});
+    std::vector<int> left_out;
+    for (int x = 0; x < to; ++x) {
+      if (scaled.at<uint8_t>(2, x) != 0) left_out.push_back(x);
+    }
+    return left_out;
+  };
+  EXPECT_THAT(columns(4, 1, 6), testing::ElementsAre(1, 2));     // 1.5 to 3
+  EXPECT_THAT(columns(5, 2, 7), testing::ElementsAre(2, 3, 4));  // 2.8 to 4.2
+  EXPECT_THAT(columns(4, 1, 8), testing::ElementsAre(2, 3));
+  EXPECT_THAT(columns(4, 1, 4), testing::ElementsAre(1));
+  EXPECT_THAT(columns(6, 2, 4), testing::ElementsAre(1));  // 1.33 to 2
+  EXPECT_THAT(columns(400, 33, 4), testing::ElementsAre(0));
+}
+
 TEST_F(ImageMasksTest, BelongToImagesByTheirNames) {
   Write("people/1.png", mask_);
   Write("people/2.jpg.png", 1 - mask_ / 7);

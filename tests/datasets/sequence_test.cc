@@ -6,6 +6,7 @@
 #include "msc_vo/datasets/sequence.h"
 
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "tests/support/message_matchers.h"
@@ -52,6 +53,9 @@ TEST_F(SequenceTest, ReadsIntrinsicsOf3DMatch) {
   WriteColor("seq/frame-000000.color.png");
   WriteDepth("seq/frame-000000.depth.png");
   WriteText("camera-intrinsics.txt", "572 0 320\n0 573 240\n0 0 1\n");
+  WriteColor("seq/frame-000001.color.png");
+  WriteText("seq/frame-000000.depth.png", "damaged");
+  WriteDepth("seq/frame-000001.depth.png");
   const SequenceIndex index = OpenSequence(Path("seq"));
   ASSERT_TRUE(index.calibration.has_value());
   EXPECT_EQ(index.calibration->camera.fy, 573.0);
@@ -169,6 +173,7 @@ TEST_F(SequenceTest, ReadsScanNetAndScalesItsCameraToDepth) {
     WriteDepth("depth/" + number + ".png");
     WriteText("pose/" + number + ".txt", kPose);
   }
+  WriteText("color/0.jpg", "damaged");
   WriteText("pose/2.txt", kLostPose);
   WriteText("intrinsic/intrinsic_color.txt", "20 0 7.5 0\n0 22 5.5 0\n0 0 1 0\n0 0 0 1\n");
   const SequenceIndex index = OpenSequence(Folder());
@@ -210,6 +215,30 @@ TEST_F(SequenceTest, PairsNumberedPlainFoldersByNumberOnly) {
   for (const std::string name : {"0", "6", "12", "18"}) WriteColor("rgb/" + name + ".png");
   for (const std::string name : {"0", "6", "14"}) WriteDepth("depth/" + name + ".png");
   EXPECT_EQ(OpenSequence(Folder()).entries.size(), 2u);
+}
+
+TEST_F(SequenceTest, GroundTruthOfPlainFoldersHasUnitInWhichItCoversImages) {
+  const auto check = [&](const std::vector<std::string>& names,
+                         const std::vector<std::string>& stamps, double first, double last) {
+    std::string truth;
+    for (const std::string& name : names) {
+      WriteColor("rgb/" + name + ".jpg");
+      WriteDepth("depth/" + name + ".png");
+    }
+    for (const std::string& stamp : stamps) truth += stamp + " 0 0 0 0 0 0 1\n";
+    WriteText("groundtruth.txt", truth);
+    const SequenceIndex index = OpenSequence(Folder());
+    EXPECT_EQ(index.format, "rgb-depth");
+    EXPECT_DOUBLE_EQ(index.entries.front().timestamp, first);
+    EXPECT_DOUBLE_EQ(index.ground_truth.front().timestamp, first);
+    EXPECT_DOUBLE_EQ(index.ground_truth.back().timestamp, last);
+    std::filesystem::remove_all(Path("rgb"));
+    std::filesystem::remove_all(Path("depth"));
+  };
+  const std::vector<std::string> milliseconds = {"81533", "81566", "81600"};
+  check(milliseconds, milliseconds, 81.533, 81.6);
+  check({"81.533", "81.566", "81.600"}, milliseconds, 81.533, 81.6);
+  check({"240", "241", "270"}, {"240", "255", "270"}, 8.0, 9.0);
 }
 
 TEST_F(SequenceTest, PairsPlainFoldersWithoutNumbersByOrder) {

@@ -81,10 +81,11 @@ TEST_F(PhoneCommandTest, MasksBelongToTheImagesOfTheVideo) {
 
 TEST_F(PhoneCommandTest, RecordedFolderGivesTheSameImages) {
   Expect(0, RunCommand({"record", Path("stray"), Path("copy")}));
-  EXPECT_EQ(OpenSequence(Path("copy")).entries.size(), 32u);
-  EXPECT_TRUE(fs::exists(Path("copy/reference.txt")));
-  Expect(0, RunCommand({"replay", Path("copy"), "--output", Path("out"), "--quiet",
-                        "--depth-sensor", "lidar"}));
+  const SequenceIndex copy = OpenSequence(Path("copy"));
+  EXPECT_EQ(copy.entries.size(), 32u);
+  EXPECT_EQ(copy.ground_truth.size(), 32u);
+  EXPECT_EQ(copy.reference, "ARKit");
+  Expect(0, RunCommand({"replay", Path("copy"), "--output", Path("out"), "--quiet"}));
   Expect(0, RunCommand({"replay", Path("stray"), "--output", Path("out2"), "--quiet"}));
   EXPECT_EQ(ReadFile(Path("out/trajectory.txt")), ReadFile(Path("out2/trajectory.txt")));
 }
