@@ -132,6 +132,11 @@ void ReadCamera(const BagFile& bag, const ImageTopic& color, const ImageTopic& d
     if (index->calibration) {
       index->calibration->origin =
           bag.path() + ":" + name + (IsRectified(color) ? " for rectified images" : "");
+      if (topic == &depth && !IsRegistered(depth)) {
+        index->warnings.push_back("no CameraInfo belongs to " + color.name + "; " + name +
+                                  " of the depth images is used, which is wrong unless these are "
+                                  "registered to colour; --camera-file gives the right camera");
+      }
       break;
     }
     index->warnings.push_back(name + " gives no calibration: " + problem);

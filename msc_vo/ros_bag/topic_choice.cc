@@ -27,10 +27,6 @@ bool IsInfrared(const ImageTopic& topic) {
   return HasWord(topic, {"ir", "nir", "lwir", "infra", "infrared", "thermal"});
 }
 
-bool IsRegistered(const ImageTopic& topic) {
-  return HasWord(topic, {"registered", "aligned"}) && !HasWord(topic, {"no", "not", "non", "un"});
-}
-
 bool IsNamedDepth(const ImageTopic& topic) { return HasWord(topic, {"depth", "disparity"}); }
 
 // Number of path elements that two names have in common at their beginning.
@@ -116,6 +112,10 @@ std::string DescribeTopic(const ImageTopic& topic) {
   if (IsInfrared(topic)) text += ", infrared";
   if (topic.kind != RosImageKind::kDepth && IsNamedDepth(topic)) text += ", named as depth";
   return text + ")";
+}
+
+bool IsRegistered(const ImageTopic& topic) {
+  return HasWord(topic, {"registered", "aligned"}) && !HasWord(topic, {"no", "not", "non", "un"});
 }
 
 bool IsRectified(const ImageTopic& topic) {

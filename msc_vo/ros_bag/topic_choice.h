@@ -34,6 +34,9 @@ std::vector<ImageTopic> RankColorTopics(std::vector<ImageTopic> topics,
 /// Describes what the rank of a topic follows from: "/camera/ir/image (grey, infrared)".
 std::string DescribeTopic(const ImageTopic& topic);
 
+/// Tests whether the depth images of a topic are named as registered to colour.
+bool IsRegistered(const ImageTopic& topic);
+
 /// Tests whether the images of a topic are named as free of lens distortion.
 bool IsRectified(const ImageTopic& topic);
 

@@ -39,8 +39,7 @@ class BagSequenceTest : public TemporaryFolder {
     info.height = 24;
     info.cx = 15.5;
     info.cy = 11.5;
-    bag->Write("/camera/rgb/camera_info", "sensor_msgs/CameraInfo", 1.0,
-               CameraInfoMessage(info, serialization));
+    bag->Write(info_topic_, "sensor_msgs/CameraInfo", 1.0, CameraInfoMessage(info, serialization));
     for (const int i : {1, 0, 2, 4, 3}) {
       const auto nanoseconds = static_cast<uint32_t>(100000000 * i);
       const cv::Mat color(24, 32, CV_8UC3, cv::Scalar::all(10 * (i + 1)));
@@ -50,12 +49,13 @@ class BagSequenceTest : public TemporaryFolder {
       const double recorded = 1.0 + 0.1 * recordings_++;
       bag->Write("/camera/rgb/image_color", "sensor_msgs/Image", recorded,
                  ImageMessage(100, nanoseconds, color, "bgr8", serialization));
-      bag->Write("/camera/depth/image", "sensor_msgs/Image", recorded + 0.01,
+      bag->Write(depth_topic_, "sensor_msgs/Image", recorded + 0.01,
                  ImageMessage(100, nanoseconds + 5000000, depth, depth_encoding, serialization));
     }
     bag->Write("/camera/ir/image", "sensor_msgs/Image", 9.0,
                ImageMessage(100, 0, cv::Mat::zeros(24, 32, CV_8UC1), "mono8", serialization));
   }
+  std::string info_topic_ = "/camera/rgb/camera_info", depth_topic_ = "/camera/depth/image";
   int recordings_ = 0;
 
   static void ExpectFivePairs(const std::string& path) {
@@ -145,6 +145,23 @@ TEST_F(BagSequenceTest, TakesTheTopicsThatAreNamed) {
   const SequenceIndex infrared = OpenBag(Path("x.bag"), {"/camera/ir/image", ""});
   ASSERT_EQ(infrared.entries.size(), 1u);
   EXPECT_THAT(infrared.entries[0].color_path, Names("x.bag:/camera/ir/image", "0"));
+}
+
+TEST_F(BagSequenceTest, WarnsOfACameraInfoOfDepthThatIsNotRegistered) {
+  for (const std::string topic : {"/camera/depth", "/camera/depth_registered"}) {
+    depth_topic_ = topic + "/image";
+    info_topic_ = topic + "/camera_info";
+    WriteBag("x.bag", "16UC1");
+    const SequenceIndex index = OpenBag(Path("x.bag"));
+    EXPECT_EQ(index.calibration->camera.fx, 525.0);
+    const auto warns =
+        testing::Contains(Names("/camera/rgb/image_color", info_topic_, "--camera-file"));
+    if (topic == "/camera/depth") {
+      EXPECT_THAT(index.warnings, warns);
+    } else {
+      EXPECT_THAT(index.warnings, testing::Not(warns));
+    }
+  }
 }
 
 TEST_F(BagSequenceTest, PrefersThePresetThatTheNameSuggests) {
