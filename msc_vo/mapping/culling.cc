@@ -99,12 +99,14 @@ void CullLandmarks(const CullingOptions& options, KeyframeId newest, Probation* 
 
 int CullKeyframes(const CullingOptions& options, KeyframeId newest, Map* map) {
   const KeyframeId first = map->keyframes().front().first;
+  const auto* before = map->keyframes().FindUpTo(newest - 1);
+  const KeyframeId predecessor = before != nullptr ? before->first : kNoId;
   int num_removed = 0;
   KeyframeIndex keyframes = IndexAll(*map);
   for (const Map::Covisible& covisible : map->FindCovisible(newest)) {
     const KeyframeId id = covisible.keyframe;
     // The predecessor is kept: frames are tracked against it and its landmarks are on probation.
-    if (id == first || id + 1 >= newest) continue;
+    if (id == first || id > newest || id == predecessor) continue;
     if (!IsRedundant(options, *map, keyframes, *keyframes.Find(id))) continue;
     const std::vector<Map::Covisible> neighbours = map->FindCovisible(id);
     map->RemoveKeyframe(id, neighbours.front().keyframe);

@@ -63,6 +63,16 @@ TEST_F(CullingTest, RemovesRedundantKeyframesExceptTheEnds) {
   EXPECT_EQ(map_.keyframes().size(), 3u);
 }
 
+// No keyframe has the id 5: its insertion failed.
+TEST_F(CullingTest, KeepsThePredecessorWhateverItsId) {
+  for (int i = 1; i <= 4; ++i) ObserveAllPoints(AddKeyframe());
+  auto frame = std::make_shared<Frame>();
+  frame->points.resize(4);
+  ObserveAllPoints(map_.AddKeyframe(frame, Rigid3(), 6));
+  EXPECT_GT(CullKeyframes(options_, 6, &map_), 0);
+  EXPECT_NE(map_.FindKeyframe(4), nullptr);
+}
+
 TEST_F(CullingTest, KeepsKeyframesWithFewObservedLandmarks) {
   for (int i = 1; i <= 5; ++i) AddKeyframe();
   map_.Observe<PointLandmark>(points_[0], 2, 0);
