@@ -39,9 +39,7 @@ Rigid3 Mismatch(const FrameInTwoMaps& frame, const Rigid3& a_from_b) {
 
 // Covariance of the mismatch of a frame.
 Matrix6 MismatchCovariance(const FrameInTwoMaps& frame) {
-  return CameraCovariance(frame.cam_from_a, frame.covariance_a) +
-         CameraCovariance(frame.cam_from_b, frame.covariance_b) +
-         2.0 * ViewCovariance();  // both maps
+  return frame.covariance_a + frame.covariance_b + 2.0 * ViewCovariance();  // both maps
 }
 
 Vector6 MismatchVector(const FrameInTwoMaps& frame, const Rigid3& a_from_b) {

@@ -11,7 +11,8 @@
 
 namespace msc_vo {
 
-/// The pose of one frame in two maps.
+/// The pose of one frame in two maps, with its covariances in the camera frame
+/// (CameraCovariance()).
 struct FrameInTwoMaps {
   Rigid3 cam_from_a;
   Rigid3 cam_from_b;

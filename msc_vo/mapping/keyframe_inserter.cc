@@ -26,9 +26,8 @@ void AddObservations(const KeyframePacket& packet, KeyframeId keyframe, Map* map
 
 // Of a keyframe relative to those before it. Alignment alone links the first keyframe of a map to
 // the keyframes of others.
-PoseCovariance StepCovariance(const KeyframePacket& packet, const Rigid3& cam_from_world) {
-  if (packet.reference != kNoId) return CameraCovariance(cam_from_world, packet.covariance);
-  return ViewCovariance();
+PoseCovariance StepCovariance(const KeyframePacket& packet) {
+  return packet.reference != kNoId ? packet.covariance : ViewCovariance();
 }
 
 }  // namespace
@@ -49,7 +48,7 @@ void KeyframeInserter::Insert(const KeyframePacket& packet, std::shared_ptr<cons
     cam_from_world = cam_from_world * map->CamFromWorld(packet.reference);
   }
   newest_ = map->AddKeyframe(std::move(frame), cam_from_world, packet.id);
-  map->SetStepCovariance(newest_, StepCovariance(packet, cam_from_world));
+  map->SetStepCovariance(newest_, StepCovariance(packet));
   summary->keyframe = newest_;
   summary->submap = atlas->current().id;
   AddObservations(packet, newest_, map);

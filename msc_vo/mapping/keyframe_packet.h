@@ -35,12 +35,13 @@ struct KeyframePacket {
   bool keeps_last_map = true;
   std::optional<LastTrackedPose> last_tracked;  ///< in that map
   FrameMatches matches;                         ///< with landmarks of the map
-  /// Of the pose in the map, in the tangent of Rigid3Manifold.
+  /// Of the pose in the map, in the camera frame (CameraCovariance()).
   PoseCovariance covariance = PoseCovariance::Zero();
   std::optional<Revisit> revisit;  ///< if it shows another part of the map
   /// Seconds since the image before `frame`, keyframe or not; none if it is the first image.
   std::optional<double> frame_interval;
-  /// Velocity at the previous keyframe, from the frames before and after it; none if unknown.
+  KeyframeId last_keyframe = kNoId;  ///< of the packet before
+  /// Velocity at `last_keyframe`, from the frames before and after it; none if unknown.
   std::optional<CameraVelocity> last_velocity;
   /// Normals of visible surfaces, camera frame; empty if the map already has Manhattan axes.
   std::vector<AxisEvidence> normals;

@@ -15,7 +15,7 @@ namespace msc_vo {
 /// A keyframe that was found in another part of the maps.
 struct KeyframeRevisit {
   KeyframeId keyframe = kNoId;
-  /// Of its pose in its own map, in the tangent of Rigid3Manifold.
+  /// Of its pose in its own map, in the camera frame (CameraCovariance()).
   PoseCovariance covariance = PoseCovariance::Zero();
   Revisit revisit;
 };

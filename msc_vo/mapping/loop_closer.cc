@@ -20,6 +20,13 @@ constexpr KeyframeId kMaxAge = 10;
 // Squared norm of a whitened error of six rows that is no larger than expected.
 constexpr double kExpectedChiSquare = 6.0;
 
+PoseGraphEdge EdgeOf(const KeyframeRevisit& visit) {
+  const Revisit& revisit = visit.revisit;
+  const PoseCovariance camera = revisit.covariance + CommonViewCovariance();
+  return {revisit.reference, visit.keyframe, revisit.cam_from_reference,
+          CovarianceOfCamera(revisit.cam_from_reference, camera)};
+}
+
 }  // namespace
 
 void LoopCloser::AddKeyframe(const Map& map, KeyframeId keyframe, KeyframeId reference) {
@@ -51,15 +58,6 @@ std::vector<KeyframeRevisit> LoopCloser::AgreeingVisits(const Map& map) const {
     if (alignment->inliers[i]) agreeing.push_back(visits_[i]);
   }
   return agreeing;
-}
-
-PoseGraphEdge LoopCloser::EdgeOf(const Map& map, const KeyframeRevisit& visit) const {
-  const Revisit& revisit = visit.revisit;
-  const Rigid3 cam_from_world = revisit.cam_from_reference * map.CamFromWorld(revisit.reference);
-  const PoseCovariance camera =
-      CameraCovariance(cam_from_world, revisit.covariance) + CommonViewCovariance();
-  return {revisit.reference, visit.keyframe, revisit.cam_from_reference,
-          CovarianceOfCamera(revisit.cam_from_reference, camera)};
 }
 
 double LoopCloser::SquaredError(const Map& map, const PoseGraphEdge& edge, const PathDrift& path,
@@ -107,7 +105,7 @@ std::optional<LoopClosure> LoopCloser::TryClose(Map* map) {
   std::vector<PoseGraphEdge> new_edges;
   SystematicDrift systematic;
   for (const KeyframeRevisit& visit : visits) {
-    const PoseGraphEdge edge = EdgeOf(*map, visit);
+    const PoseGraphEdge edge = EdgeOf(visit);
     const PathDrift path = PathCovariances(*map, loop_edges_, edge.to).DriftTo(edge.from);
     if (SquaredError(*map, edge, path, 1.0) >= kOutlierChiSquare[6]) return refuse();
     new_edges.push_back(edge);

@@ -70,7 +70,6 @@ class LoopCloser {
  private:
   // The recent visits that agree on a correction; empty if too few do.
   std::vector<KeyframeRevisit> AgreeingVisits(const Map& map) const;
-  PoseGraphEdge EdgeOf(const Map& map, const KeyframeRevisit& visit) const;
   // Squared norm of the whitened error of the path between the keyframes of a loop, if its
   // systematic error is `factor` times that of the model. `path`: base: `edge.to`.
   double SquaredError(const Map& map, const PoseGraphEdge& edge, const PathDrift& path,

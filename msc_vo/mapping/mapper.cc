@@ -90,7 +90,7 @@ void Mapper::PrepareFrame(KeyframeTask* task) {
   SubMap& submap = atlas_.current();
   Timed(&times.creation, [&] {
     if (packet.last_velocity) {
-      SetKeyframeVelocity(inserter_.newest(), *packet.last_velocity, &submap.map);
+      SetKeyframeVelocity(packet.last_keyframe, *packet.last_velocity, &submap.map);
     }
     if (packet.begins_map) BeginMap(packet);
     calibration_.CompensateMap(&submap.map);
@@ -223,6 +223,7 @@ MapSnapshotPtr Mapper::Snapshot() {
 void Mapper::ApplyCalibration(KeyframeId newest) {
   atlas_.ChangeAll([this](SubMap* submap) {
     calibration_.ChangeMap(&submap->map);
+    submap->planes.RemoveKeyframesOfThisRun(submap->map);
     // The calibration of earlier sessions is kept.
     const bool is_of_earlier_session =
         !submap->map.keyframes().empty() &&
@@ -230,7 +231,6 @@ void Mapper::ApplyCalibration(KeyframeId newest) {
     if (is_of_earlier_session) return;
     submap->axes = SceneAxes(options_.axes);
     submap->noise = NoiseEstimator(options_.noise);
-    submap->planes.Clear();
   });
   SubMap& submap = atlas_.current();
   optimizer_.OptimizeMap(newest, &submap);

@@ -38,6 +38,13 @@ BlockId BlockOf(LandmarkId plane) { return BlockId::Extra(PlaneMap::kFirstBlock 
 LandmarkId PlaneOf(const ExtraBlock& block) { return PlaneMap::kFirstBlock - 1 - block.id; }
 bool IsPlane(const ExtraBlock& block) { return block.id < PlaneMap::kFirstBlock; }
 
+// The planes of a keyframe, of which two features may be parts of one.
+std::set<LandmarkId> PlanesOf(const std::vector<PlaneMatch>& matches) {
+  std::set<LandmarkId> planes;
+  for (const PlaneMatch& match : matches) planes.insert(match.plane);
+  return planes;
+}
+
 // Squared residual of a keyframe's observation, with the sigmas of the feature; infinite if it is
 // not defined.
 double SquaredResidual(const PlaneFeature& feature, const Rigid3& cam_from_world,
@@ -64,7 +71,8 @@ void PlaneMap::AddKeyframe(const Map& map, KeyframeId keyframe, const PoseCovari
   if (features.empty()) return;
   std::vector<PlaneMatch> matches =
       MatchPlanes(features, InWorld(map), added.cam_from_world,
-                  CovarianceForMatching(added.cam_from_world, covariance));
+                  CovarianceForMatching(added.cam_from_world,
+                                        CovarianceOfCamera(added.cam_from_world, covariance)));
   std::vector<bool> is_known(features.size(), false);
   for (const PlaneMatch& match : matches) is_known[match.feature] = true;
   for (size_t i = 0; i < features.size(); ++i) {
@@ -155,17 +163,18 @@ void PlaneMap::Join(PlaneMap other) {
   numbering_ += other.numbering_ + 1;
 }
 
-void PlaneMap::Clear() {
-  const int64_t numbering = numbering_ + 1;
-  *this = PlaneMap();
-  numbering_ = numbering;
+void PlaneMap::RemoveKeyframesOfThisRun(const Map& map) {
+  const auto first = std::find_if(keyframes_.begin(), keyframes_.end(), [&map](const auto& entry) {
+    return !map.IsOfEarlierSession(entry.first);
+  });
+  if (first == keyframes_.end()) return;
+  keyframes_.erase(first, keyframes_.end());
+  noise_ = PlaneMap().noise_;
+  Renew(map);
 }
 
 void PlaneMap::FollowFrames(const Map& map) {
-  std::map<LandmarkId, int> num_observations;
-  for (const auto& [id, matches] : keyframes_) {
-    for (const PlaneMatch& match : matches) ++num_observations[match.plane];
-  }
+  std::map<LandmarkId, int> num_observations = NumObservations();
   for (const auto& [id, matches] : keyframes_) {
     const Keyframe* keyframe = map.FindKeyframe(id);
     for (const PlaneMatch& match : matches) {
@@ -182,7 +191,7 @@ void PlaneMap::AddTo(const Map& map, WindowData* window) const {
   for (const WindowData::Keyframe& keyframe : window->keyframes) {
     const auto seen = keyframes_.find(keyframe.id);
     if (seen == keyframes_.end()) continue;
-    for (const PlaneMatch& match : seen->second) ++num_observers[match.plane];
+    for (const LandmarkId plane : PlanesOf(seen->second)) ++num_observers[plane];
   }
   static const auto manifold = std::make_shared<const PlaneManifold>();
   const MapPlanes in_world = InWorld(map);
@@ -217,8 +226,9 @@ PlaneMap PlaneMap::Fitted(const Map& map) const {
     }
   }
   PlaneMap fitted = *this;
+  std::map<LandmarkId, int> num_observations = NumObservations();
   for (auto& [id, plane] : fitted.planes_) {
-    if (views[id].size() < 2) continue;
+    if (num_observations[id] < 2) continue;
     const Rigid3 host_from_world = map.CamFromWorld(plane.host);
     Plane in_world = host_from_world.Inverse() * plane.in_host;
     FitPlane(views[id], noise_, &in_world);
@@ -254,7 +264,6 @@ void PlaneMap::Learn(const Map& map, const WindowData& window) {
   std::vector<double> squares;
   for (const auto& [id, of_plane] : of_planes) {
     const auto count = static_cast<double>(of_plane.size());
-    if (count < 2) continue;
     for (const double square : of_plane) squares.push_back(square * count / (count - 1.0));
   }
   if (squares.size() < kMinResiduals) return;
@@ -281,9 +290,7 @@ MapPlanes PlaneMap::InWorld(const Map& map) const {
 std::map<LandmarkId, int> PlaneMap::NumObservations() const {
   std::map<LandmarkId, int> counts;
   for (const auto& [id, matches] : keyframes_) {
-    std::set<LandmarkId> observed;  // two features may be parts of one plane
-    for (const PlaneMatch& match : matches) observed.insert(match.plane);
-    for (const LandmarkId plane : observed) ++counts[plane];
+    for (const LandmarkId plane : PlanesOf(matches)) ++counts[plane];
   }
   return counts;
 }

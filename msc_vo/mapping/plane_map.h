@@ -23,7 +23,7 @@ class PlaneMap {
 
   /// Matches the planes of a keyframe of the map, adds those that are new, extends the others by
   /// what the keyframe shows of them, and merges duplicates. `covariance`: of the keyframe's pose,
-  /// tangent of Rigid3Manifold.
+  /// camera frame (CameraCovariance()).
   void AddKeyframe(const Map& map, KeyframeId keyframe, const PoseCovariance& covariance);
   /// Merges planes that a keyframe observes with others that are the same within the uncertainty
   /// of the observation, and whose extents touch. Does nothing if the keyframe is unknown.
@@ -33,8 +33,9 @@ class PlaneMap {
   /// Takes over the planes of a map that was joined with that of this one, under other ids; the
   /// keyframes of both are in one map now.
   void Join(PlaneMap other);
-  /// Forgets all planes. Their ids are given again.
-  void Clear();
+  /// Forgets the observations of keyframes that are not of earlier sessions, the planes that only
+  /// they observed, and the noise that was learnt from them.
+  void RemoveKeyframesOfThisRun(const Map& map);
   /// Takes the planes with a single observation from it again: the frame of its keyframe may have
   /// been replaced, as by another compensation.
   void FollowFrames(const Map& map);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -21,29 +22,16 @@ struct TrackingCount {
 /// The counts of landmarks over several frames, by ascending id.
 class TrackingCounts {
  public:
-  /// Counts the landmarks of a frame; `ids` ascend.
-  void AddVisible(const std::vector<LandmarkId>& ids) {
-    std::vector<TrackingCount> merged;
-    merged.reserve(counts_.size() + ids.size());
-    auto count = counts_.begin();
-    for (const LandmarkId id : ids) {
-      while (count != counts_.end() && count->id < id) merged.push_back(*count++);
-      if (count != counts_.end() && count->id == id) {
-        merged.push_back(*count++);
-      } else {
-        merged.push_back({id, 0, 0});
-      }
-      ++merged.back().num_visible;
-    }
-    merged.insert(merged.end(), count, counts_.end());
-    counts_ = std::move(merged);
-  }
-
-  /// Counts a match of a frame.
-  void AddFound(LandmarkId id) {
-    auto count = LowerBound(id);
-    if (count == counts_.end() || count->id != id) count = counts_.insert(count, {id, 0, 0});
-    ++count->num_found;
+  /// Counts the landmarks of a frame. `visible`: ascending ids; `found`: those of its matches, in
+  /// any order, several for a landmark with several features. What was found was visible.
+  void AddFrame(const std::vector<LandmarkId>& visible, std::vector<LandmarkId> found) {
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    std::vector<LandmarkId> all;
+    std::set_union(visible.begin(), visible.end(), found.begin(), found.end(),
+                   std::back_inserter(all));
+    Add(all, &TrackingCount::num_visible);
+    Add(found, &TrackingCount::num_found);
   }
 
   std::vector<TrackingCount>::const_iterator begin() const { return counts_.begin(); }
@@ -55,10 +43,22 @@ class TrackingCounts {
   }
 
  private:
-  std::vector<TrackingCount>::iterator LowerBound(LandmarkId id) {
-    return std::lower_bound(
-        counts_.begin(), counts_.end(), id,
-        [](const TrackingCount& count, LandmarkId value) { return count.id < value; });
+  // Increases a count of landmarks, whose ids ascend.
+  void Add(const std::vector<LandmarkId>& ids, int TrackingCount::*num) {
+    std::vector<TrackingCount> merged;
+    merged.reserve(counts_.size() + ids.size());
+    auto count = counts_.begin();
+    for (const LandmarkId id : ids) {
+      while (count != counts_.end() && count->id < id) merged.push_back(*count++);
+      if (count != counts_.end() && count->id == id) {
+        merged.push_back(*count++);
+      } else {
+        merged.push_back({id, 0, 0});
+      }
+      ++(merged.back().*num);
+    }
+    merged.insert(merged.end(), count, counts_.end());
+    counts_ = std::move(merged);
   }
 
   std::vector<TrackingCount> counts_;

@@ -15,7 +15,7 @@ namespace msc_vo {
 struct Revisit {
   KeyframeId reference = kNoId;  ///< of that part
   Rigid3 cam_from_reference;
-  /// Of the pose in the world of the reference, in the tangent of Rigid3Manifold.
+  /// Of the pose in the world of the reference, in the camera frame (CameraCovariance()).
   PoseCovariance covariance = PoseCovariance::Zero();
   FrameMatches matches;  ///< inliers among the landmarks of that part
 };

@@ -92,7 +92,8 @@ class MapMerger {
       const MapSnapshot snapshot = Snapshot(id);
       places.Update(snapshot);
       const auto revisit = places.FindRevisit(tracked, true, snapshot, kSearchSeconds);
-      if (revisit) JoinOrClose({id, tracked.pose.covariance, *revisit}, &is_joined);
+      if (!revisit) continue;
+      JoinOrClose({id, *atlas_.current().map.StepCovariance(id), *revisit}, &is_joined);
     }
     if (is_joined) FuseAndCull(keyframes);
   }

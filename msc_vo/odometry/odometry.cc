@@ -158,7 +158,8 @@ void Odometry::State::AddResult(const TrackedFrame& tracked, int world, const Rg
   result.cam_from_odometry = odometry_pose.cam_from_odometry();
   result.odometry_covariance = odometry_pose.covariance();
   result.image = MeasureImage(image);
-  result.cause = FindLossCause(result, tracked.is_implausible);
+  result.cause =
+      FindLossCause(result, options.tracking.min_initial_features, tracked.is_implausible);
   times.matching = result.times.matching;
   times.pose = result.times.pose;
   times.tracking = arrival.Milliseconds();
@@ -189,8 +190,13 @@ MapSnapshotPtr Odometry::State::SubmitKeyframe(const TrackedFrame& tracked,
   const MapSnapshotPtr visible = MapAt(timestamp, error);
   if (visible->map.FindKeyframe(id) == nullptr) return map;
   // The latency is 0: its pose is that in its own map.
-  results.back().cam_from_world = visible->map.CamFromWorld(id);
-  results.back().world = visible->world;
+  FrameResult& result = results.back();
+  const Rigid3 tracked_pose = std::exchange(result.cam_from_world, visible->map.CamFromWorld(id));
+  result.world = visible->world;
+  if (result.covariance) {
+    result.covariance = CovarianceOfCamera(result.cam_from_world,
+                                           CameraCovariance(tracked_pose, *result.covariance));
+  }
   return visible;
 }
 

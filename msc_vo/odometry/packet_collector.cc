@@ -10,9 +10,9 @@ namespace msc_vo {
 void PacketCollector::Add(const TrackedFrame& tracked) {
   ForEachLandmarkKind([&](auto kind) {
     using L = typename decltype(kind)::Landmark;
-    TrackingCounts& counts = packet_.counts.Of<L>();
-    counts.AddVisible(tracked.visible.Of<L>());
-    for (const auto& match : OfKind<L>(tracked.matches)) counts.AddFound(match.id);
+    std::vector<LandmarkId> found;
+    for (const auto& match : OfKind<L>(tracked.matches)) found.push_back(match.id);
+    packet_.counts.Of<L>().AddFrame(tracked.visible.Of<L>(), std::move(found));
   });
   if (tracked.previous_velocity) packet_.last_velocity = tracked.previous_velocity;
 }
@@ -20,6 +20,7 @@ void PacketCollector::Add(const TrackedFrame& tracked) {
 KeyframePacket PacketCollector::Take(const TrackedFrame& tracked,
                                      const std::optional<double>& frame_interval) {
   KeyframePacket packet = std::exchange(packet_, {});
+  packet_.last_keyframe = tracked.keyframe.id;
   const SegmentStart start = tracked.keyframe.segment_start;
   packet.id = tracked.keyframe.id;
   packet.frame = tracked.frame;
@@ -29,7 +30,7 @@ KeyframePacket PacketCollector::Take(const TrackedFrame& tracked,
   packet.keeps_last_map = start != SegmentStart::kReplacing;
   packet.last_tracked = tracked.keyframe.last_tracked;
   packet.matches = tracked.matches;
-  packet.covariance = tracked.pose.covariance;
+  packet.covariance = CameraCovariance(tracked.cam_from_world, tracked.pose.covariance);
   packet.revisit = tracked.keyframe.revisit;
   packet.frame_interval = frame_interval;
   return packet;

@@ -137,9 +137,9 @@ std::vector<bool> LookAlikes::AreSame(const TrackedFrame& tracked, const MapSnap
     const Rigid3 aligned_from_world = PoseBy(alignment, tracked, snapshot.map, map);
     const Rigid3 world_from_other = map.CamFromWorld(alignment.other).Inverse();
     const PoseCovariance covariance =
-        2.0 * ViewCovariance() + CameraCovariance(found_from_world, found.covariance) +
+        2.0 * ViewCovariance() + found.covariance +
         TransportCovariance(tracked.cam_from_reference, own_paths.OfRoot(alignment.own)) +
-        paths.OfRoot(alignment.other);
+        TransportCovariance(found.cam_from_reference, paths.OfRoot(alignment.other));
     same[i] = IsPossibleDrift(found_from_world * world_from_other,
                               aligned_from_world * world_from_other, covariance);
   }

@@ -96,11 +96,8 @@ bool CanShowSame(const TrackedFrame& tracked, const Keyframe& keyframe, double r
 bool IsPossible(const TrackedFrame& tracked, const Map& map, const PathCovariances& paths,
                 const Revisit& revisit) {
   const Rigid3 by_path = tracked.cam_from_world * map.CamFromWorld(revisit.reference).Inverse();
-  const Rigid3 cam_from_world = revisit.cam_from_reference * map.CamFromWorld(revisit.reference);
   return IsPossibleDrift(by_path, revisit.cam_from_reference,
-                         paths.OfRoot(revisit.reference) +
-                             CameraCovariance(tracked.cam_from_world, tracked.pose.covariance) +
-                             CameraCovariance(cam_from_world, revisit.covariance));
+                         CovarianceSince(tracked, paths, revisit.reference) + revisit.covariance);
 }
 
 }  // namespace
@@ -191,12 +188,11 @@ std::optional<Revisit> PlaceSearch::FindRival(const TrackedFrame& tracked,
     std::optional<Revisit> rival = Relocalize(tracked, snapshot.noise_scale, map, *keyframe);
     if (!rival) continue;
     // Poses that differ by no more than the drift between two visits are one place.
-    const Rigid3 rival_from_world = rival->cam_from_reference * map.CamFromWorld(rival->reference);
     const PathCovariances paths(map, snapshot.loops, found.reference);
     const bool is_same = IsPossibleDrift(
         cam_from_world * map.CamFromWorld(rival->reference).Inverse(), rival->cam_from_reference,
-        paths.OfRoot(rival->reference) + CameraCovariance(cam_from_world, found.covariance) +
-            CameraCovariance(rival_from_world, rival->covariance));
+        TransportCovariance(found.cam_from_reference, paths.OfRoot(rival->reference)) +
+            found.covariance + rival->covariance);
     if (!is_same) return rival;
   }
   return std::nullopt;
@@ -250,7 +246,7 @@ std::optional<Revisit> PlaceSearch::Relocalize(const TrackedFrame& tracked,
   if (!HasComparableMatchRatio(frame, at_place, in_own_map)) return std::nullopt;
   return Revisit{local.reference,
                  pose->cam_from_world * map.CamFromWorld(local.reference).Inverse(),
-                 pose->summary.covariance, matches};
+                 CameraCovariance(pose->cam_from_world, pose->summary.covariance), matches};
 }
 
 }  // namespace msc_vo

@@ -25,20 +25,13 @@ class MapAlignmentTest : public testing::Test {
     FrameInTwoMaps frame;
     frame.cam_from_b = Disturb(sigmas) * cam_from_b;
     frame.cam_from_a = Disturb(sigmas) * cam_from_b * a_from_b_.Inverse();
-    frame.covariance_a = CovarianceFor(frame.cam_from_a);
-    frame.covariance_b = CovarianceFor(frame.cam_from_b);
+    frame.covariance_a = frame.covariance_b = IsotropicCovariance(1e-3, 1e-3);
     return frame;
   }
   Rigid3 Disturb(double sigmas) {
     std::normal_distribution<double> error(0.0, 1e-3 * sigmas);
     const Eigen::Vector3d w(error(random_), error(random_), error(random_));
     return {ExpSO3(w), {error(random_), error(random_), error(random_)}};
-  }
-  // Of a pose whose camera errs by 1 mm and 1 mrad: the inverse of CameraCovariance().
-  static PoseCovariance CovarianceFor(const Rigid3& pose) {
-    PoseCovariance to_camera = PoseCovariance::Identity();
-    to_camera.bottomLeftCorner<3, 3>() = -Skew(pose.translation());
-    return 1e-6 * to_camera * to_camera.transpose();
   }
   // Error of the alignment at the cameras.
   double PositionError(const MapAlignment& alignment) {

@@ -77,6 +77,7 @@ TEST(Mapper, CompensatesKeyframesWhoseVelocityIsKnown) {
   EXPECT_EQ(mapper.map().FindKeyframe(0)->frame->readout_time, 0.0);  // unknown velocity
   for (const int index : {10, 20}) {
     KeyframePacket packet = Packet(&world, index, &random);
+    packet.last_keyframe = index / 10 - 1;
     packet.last_velocity = velocity;
     mapper.Process(packet);
   }
@@ -85,6 +86,10 @@ TEST(Mapper, CompensatesKeyframesWhoseVelocityIsKnown) {
     EXPECT_EQ(frame.readout_time, 0.026);
     EXPECT_EQ(frame.velocity->angular, velocity.angular);
   }
+  KeyframePacket after_failure = Packet(&world, 30, &random);
+  after_failure.last_keyframe = 7;  // which could not be inserted
+  after_failure.last_velocity = velocity;
+  mapper.Process(after_failure);
   EXPECT_FALSE(mapper.map().FindKeyframe(2)->frame->velocity.has_value());
 }
 
@@ -97,6 +102,7 @@ TEST(Mapper, MovesLandmarksWithTheCompensationOfTheFirstKeyframe) {
   mapper.Process(Packet(&world, 0, &random));
   const std::shared_ptr<const Frame> raw = mapper.map().FindKeyframe(0)->frame;
   KeyframePacket packet = Packet(&world, 10, &random);
+  packet.last_keyframe = 0;
   packet.last_velocity = CameraVelocity{{0.5, 0.0, 0.0}, {0.0, 0.1, 0.0}};
   KeyframeTask task(packet);
   while (!task.IsInserted()) mapper.Advance(&task);

@@ -129,9 +129,45 @@ TEST_F(PlaneMapTest, NumbersPlanesAnewWhenTheirIdsChange) {
   PlaneMap joined = planes_;
   joined.Join(PlaneMap());
   EXPECT_NE(joined.InWorld(map_).numbering, before);
-  planes_.Clear();
+}
+
+// The three keyframes are of an earlier session. The next one sees the wall and a door.
+TEST_F(PlaneMapTest, KeepsPlanesOfEarlierSessions) {
+  planes_.RemoveKeyframesOfThisRun(map_);
   EXPECT_TRUE(planes_.empty());
-  EXPECT_NE(planes_.InWorld(map_).numbering, before);
+  for (KeyframeId id = 0; id < 3; ++id) planes_.AddKeyframe(map_, id, PoseCovariance::Zero());
+  map_.BeginSession();
+  const Plane door({1.0, 0.0, 0.0}, 1.0);
+  const Rigid3 pose = map_.FindKeyframe(2)->cam_from_world;
+  auto frame = std::make_shared<Frame>();
+  frame->planes = {FeatureOf(pose * kWall), FeatureOf(pose * door)};
+  planes_.AddKeyframe(map_, map_.AddKeyframe(frame, pose), PoseCovariance::Zero());
+  ASSERT_EQ(planes_.InWorld(map_).planes.size(), 3u);
+  planes_.RemoveKeyframesOfThisRun(map_);
+  EXPECT_LT(Error({}), 1e-9);
+  for (const auto& [plane, count] : planes_.NumObservations()) EXPECT_EQ(count, 3) << plane;
+}
+
+// Two features of the last keyframe are parts of one door.
+TEST_F(PlaneMapTest, TwoFeaturesOfAKeyframeAreOneObservation) {
+  const Plane door({1.0, 0.0, 0.0}, 1.0);
+  const Rigid3 pose = map_.FindKeyframe(2)->cam_from_world;
+  KeyframeId last = kNoId;
+  for (const size_t num_features : {1, 2}) {
+    auto frame = std::make_shared<Frame>();
+    frame->planes.assign(num_features, FeatureOf(pose * door));
+    last = map_.AddKeyframe(frame, pose);
+    planes_.AddKeyframe(map_, last, PoseCovariance::Zero());
+  }
+  ASSERT_EQ(planes_.InWorld(map_).planes.size(), 3u);
+  WindowData window;
+  window.keyframes.push_back({last, pose});
+  planes_.AddTo(map_, &window);
+  EXPECT_TRUE(window.custom_factors.empty() && window.extra_blocks.empty());
+  window.keyframes.push_back({last - 1, pose});
+  planes_.AddTo(map_, &window);
+  EXPECT_EQ(window.custom_factors.size(), 3u);
+  EXPECT_EQ(window.extra_blocks.size(), 1u);
 }
 
 TEST_F(PlaneMapTest, FitsPlanesWhoseHostWasRemoved) {

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "msc_vo/geometry/so3.h"
+
 namespace msc_vo {
 namespace {
 
@@ -52,19 +54,30 @@ TEST(PacketCollector, CountsTheLandmarksOfAllFramesSinceTheLastKeyframe) {
   const KeyframePacket next = packets.Take(tracked, std::nullopt);
   EXPECT_EQ(OnlyCount(next.counts.points).num_visible, 1);
   EXPECT_FALSE(next.last_velocity.has_value());
+  EXPECT_EQ(packet.last_keyframe, kNoId);
+  EXPECT_EQ(next.last_keyframe, 7);
+}
+
+// The world of the frame may be moved before the mapper inserts the keyframe.
+TEST(PacketCollector, GivesTheCovarianceInTheCameraFrame) {
+  TrackedFrame tracked = MakeFrame();
+  tracked.cam_from_world = Rigid3(ExpSO3({0.1, 0.7, 0.0}), {5.0, 0.0, 2.0});
+  const PoseCovariance of_camera = IsotropicCovariance(0.001, 0.01);
+  tracked.pose.covariance = CovarianceOfCamera(tracked.cam_from_world, of_camera);
+  const KeyframePacket packet = PacketCollector().Take(tracked, std::nullopt);
+  EXPECT_LT((packet.covariance - of_camera).norm(), 1e-12);
 }
 
 TEST(TrackingCounts, AreMergedById) {
   TrackingCounts counts;
-  counts.AddVisible({2, 5, 9});
-  counts.AddVisible({1, 5, 7, 12});
-  for (const LandmarkId id : {5, 3, 12, 12}) counts.AddFound(id);
+  counts.AddFrame({2, 5, 9}, {});
+  counts.AddFrame({1, 5, 7, 12}, {5, 3, 12, 12});  // two fragments of line 12
   std::vector<std::array<int64_t, 3>> found;
   for (const TrackingCount& count : counts) {
     found.push_back({count.id, count.num_visible, count.num_found});
   }
-  const std::vector<std::array<int64_t, 3>> expected = {{1, 1, 0}, {2, 1, 0}, {3, 0, 1}, {5, 2, 1},
-                                                        {7, 1, 0}, {9, 1, 0}, {12, 1, 2}};
+  const std::vector<std::array<int64_t, 3>> expected = {{1, 1, 0}, {2, 1, 0}, {3, 1, 1}, {5, 2, 1},
+                                                        {7, 1, 0}, {9, 1, 0}, {12, 1, 1}};
   EXPECT_EQ(found, expected);
 }
 

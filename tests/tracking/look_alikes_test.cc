@@ -3,6 +3,7 @@
 
 #include "msc_vo/tracking/look_alikes.h"
 
+#include <cmath>
 #include <memory>
 
 #include "tests/support/synthetic_frames.h"
@@ -121,6 +122,24 @@ TEST_F(LookAlikesTest, RemainPossibleIfThereAreTooMany) {
     AddPlace(&other_world_, 20.0 * i);
     EXPECT_EQ(AreExcluded(20.0 * i), i < kMaxAlignments) << i;
   }
+}
+
+// The step between two places of the map errs by 0.1 m (one sigma) along x of the keyframes. The
+// camera is rotated about its axis, so that this is y of its frame.
+TEST_F(LookAlikesTest, AreTheSamePlaceUpToTheDriftInTheFrameOfTheCamera) {
+  const Rigid3 roll(Eigen::Quaterniond(Eigen::AngleAxisd(M_PI / 2.0, Eigen::Vector3d::UnitZ())),
+                    Eigen::Vector3d::Zero());
+  constexpr KeyframeId kOther = kFoundPlace + 1;
+  AddPlace(&world_, 0.5);
+  PoseCovariance step = IsotropicCovariance(1e-4, 1e-3);
+  step(3, 3) = 0.05 * 0.05;
+  inactive_.map.SetStepCovariance(kOther, step);
+  found_.cam_from_reference = roll;
+  Revisit other = found_;
+  other.reference = kOther;
+  other.cam_from_reference = roll * Shift(0.2) * Shift(0.5);
+  look_alikes_.Add(tracked_, snapshot_, inactive_.map, other);
+  EXPECT_TRUE(look_alikes_.AreExcluded({}, tracked_, snapshot_, inactive_.map, found_));
 }
 
 TEST_F(LookAlikesTest, AreForgottenWithTheirMaps) {
