@@ -6,6 +6,7 @@
 #include <array>
 #include <filesystem>
 #include <stdexcept>
+#include <system_error>
 
 #include <opencv2/imgproc.hpp>
 
@@ -64,11 +65,15 @@ cv::Mat DrawFeatures(const cv::Mat& gray, const ViewedFeatures& features) {
 
 OverlayVideo::OverlayVideo(const std::string& path, double frame_rate, int width, int height,
                            const LensDistortion& distortion)
-    : path_(path), covered_(0, 0, width / 2 * 2, height / 2 * 2), distortion_(distortion) {
+    : path_(path),
+      partial_(path + ".partial.mp4"),  // the ending tells the encoder the format
+      covered_(0, 0, width / 2 * 2, height / 2 * 2),
+      distortion_(distortion) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   if (!folder.empty()) MakeFolder(folder.string());
+  CheckWritable(path);
   video_ = LoadVideoFile();
-  if (video_->Open(path, frame_rate, covered_.size())) return;
+  if (video_->Open(partial_, frame_rate, covered_.size())) return;
   throw std::runtime_error(
       path +
       ": cannot be written as a video; check that the folder can be written, "
@@ -82,18 +87,20 @@ void OverlayVideo::Add(const TrackedImage& tracked) {
   ++num_images_;
 }
 
+OverlayVideo::~OverlayVideo() {
+  video_->Close();
+  std::error_code ignored;
+  std::filesystem::remove(partial_, ignored);
+}
+
 void OverlayVideo::Finish() {
   video_->Close();
   // The encoder does not say that it could not write.
-  if (num_images_ == video_->CountImages(path_)) return;
-  Remove();
+  const bool is_whole = num_images_ == video_->CountImages(partial_);
+  std::error_code error;
+  if (is_whole) std::filesystem::rename(partial_, path_, error);
+  if (is_whole && !error) return;
   throw std::runtime_error(path_ + ": the video could not be written; is the disk full?");
-}
-
-void OverlayVideo::Remove() {
-  video_->Close();
-  std::error_code ignored;
-  std::filesystem::remove(path_, ignored);
 }
 
 }  // namespace msc_vo

@@ -18,28 +18,32 @@ namespace msc_vo {
 /// Draws features onto the grey image; the result is CV_8UC3 of the same size.
 cv::Mat DrawFeatures(const cv::Mat& gray, const ViewedFeatures& features);
 
-/// A video of the images of a run with their tracked features.
+/// A video of the images of a run with their tracked features. It is written to a temporary file,
+/// so that a file of its name remains until the video is complete.
 class OverlayVideo {
  public:
-  /// Creates the file, and its folder if necessary. `frame_rate`: frames per second; `distortion`:
-  /// of the images of `width` x `height` pixels. Throws std::runtime_error naming the file if it
-  /// cannot be written or OpenCV has no encoder for it.
+  /// Creates the temporary file, and its folder if necessary. `frame_rate`: frames per second;
+  /// `distortion`: of the images of `width` x `height` pixels. Throws std::runtime_error naming the
+  /// file if it cannot be written or OpenCV has no encoder for it.
   OverlayVideo(const std::string& path, double frame_rate, int width, int height,
                const LensDistortion& distortion);
+  /// Removes the temporary file of a video that is not finished.
+  ~OverlayVideo();
+  OverlayVideo(const OverlayVideo&) = delete;
+  OverlayVideo& operator=(const OverlayVideo&) = delete;
 
   void Add(const TrackedImage& tracked);
 
-  /// Completes the file. If it does not hold every image then, as after a full disk, removes it and
-  /// throws std::runtime_error.
+  /// Completes the file. Throws std::runtime_error if it does not hold every image then, as after a
+  /// full disk.
   void Finish();
 
-  /// Ends the video and removes the file.
-  void Remove();
-
-  const std::string& path() const { return path_; }
+  /// Name of the temporary file.
+  const std::string& partial() const { return partial_; }
 
  private:
   std::string path_;
+  std::string partial_;
   cv::Rect covered_;  // encoders need even sizes
   LensDistortion distortion_;
   std::unique_ptr<VideoFile> video_;

@@ -153,9 +153,7 @@ void ReplayViews::Complete(const std::string& report_file) {
 }
 
 std::string ReplayViews::RemoveVideo() {
-  if (!video_) return "";
-  const std::string path = video_->path();
-  video_->Remove();
+  const std::string path = PartialVideo();
   video_.reset();
   return path;
 }

@@ -60,7 +60,9 @@ class ReplayViews {
   /// Hands the report (file) to those who watch and waits a moment until they have it; completes
   /// the video. Throws std::runtime_error if the video could not be written.
   void Complete(const std::string& report_file);
-  /// Gives up the video and removes its file. Returns its name; empty if there is none.
+  /// The file that the video is written to until it is complete; empty if there is none.
+  std::string PartialVideo() const { return video_ ? video_->partial() : ""; }
+  /// Gives up the video. Returns the name of the file that is removed; empty if there is none.
   std::string RemoveVideo();
 
   /// Lists the state for a checkpoint: the views for the report.

@@ -40,7 +40,7 @@ std::vector<NamedFile> FilesOf(const ReplayArguments& arguments) {
 
 // Whether a file and the temporary files beside it are apart from another one and those beside it.
 bool AreApart(const std::string& a, const std::string& b) {
-  for (const char* ending : {"", ".partial", "-journal"}) {
+  for (const char* ending : {"", ".partial", ".partial.mp4", "-journal"}) {
     if (AreSameFile(a + ending, b) || AreSameFile(a, b + ending)) return false;
   }
   return true;
