@@ -23,7 +23,7 @@ enum ExitCode {
 /// Footer of a sub-command's --help: an example and the exit codes.
 std::string HelpFooter(const std::string& example);
 
-/// The command line as typed.
+/// The command line, quoted for a shell.
 const std::string& CommandLine();
 /// Its arguments behind the name of the program.
 const std::vector<std::string>& CommandArguments();

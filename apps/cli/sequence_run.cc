@@ -16,6 +16,7 @@
 #include "apps/cli/frame_loop.h"
 #include "apps/cli/image_feed.h"
 #include "apps/cli/progress.h"
+#include "apps/cli/sequence_arguments.h"
 #include "msc_vo/logging/logger.h"
 #include "msc_vo/odometry/localization.h"
 #include "msc_vo/text/format_text.h"
@@ -41,6 +42,7 @@ RunContext MakeContext(const RgbdDecoder& decoder, const Configuration& configur
   RunContext context;
   context.command_line = CommandLine();
   context.outcome = "complete";
+  context.sequence_name = SequenceName(decoder.index().directory);
   context.sequence = decoder.index();
   context.sequence.warnings = decoder.Warnings();
   context.calibration = decoder.calibration();

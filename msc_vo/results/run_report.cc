@@ -16,6 +16,7 @@
 #include "msc_vo/results/report_frame.h"
 #include "msc_vo/results/report_paths.h"
 #include "msc_vo/text/format_text.h"
+#include "msc_vo/text/shell_word.h"
 #include "msc_vo/version.h"
 
 namespace msc_vo {
@@ -280,8 +281,8 @@ std::string CorrectionRows(const RunSummary& summary, const RunContext& context)
     corrected += (corrected.empty() ? "" : ", ") + std::string(value.name) + " " + ValueText(value);
   }
   return Row("corrected", corrected) +
-         Row("", "determine it once with msc_vo calibrate " + context.sequence.directory +
-                     " --output camera.yaml");
+         Row("", "determine it once with msc_vo calibrate " +
+                     ShellWord(context.sequence.directory) + " --output camera.yaml");
 }
 
 }  // namespace
@@ -317,8 +318,9 @@ std::string FormatRunTable(const RunSummary& summary, const RunContext& context,
   if (context.error && context.error->usable) {
     const std::filesystem::path output = output_directory;
     table +=
-        Row("check with", "evo_ape tum " + (output / TruthFileName(context.sequence)).string() +
-                              " " + (output / "trajectory.txt").string() + " -a --t_max_diff 0.02");
+        Row("check with",
+            "evo_ape tum " + ShellWord((output / TruthFileName(context.sequence)).string()) + " " +
+                ShellWord((output / "trajectory.txt").string()) + " -a --t_max_diff 0.02");
     if (summary.num_estimated < summary.num_frames) {
       table += Row("",
                    "(evo_ape compares all poses, like msc_vo evaluate --all-poses; the errors "
@@ -339,7 +341,7 @@ std::string FormatReport(const OdometryResult& result, const RunSummary& summary
       data.ground_truth.push_back({pose.timestamp, pose.world_from_cam.translation()});
     }
   }
-  data.title = std::filesystem::path(context.sequence.directory).filename().string();
+  data.title = context.sequence_name;
   data.version = std::string("msc_vo ") + kVersion;
   data.command_line = context.command_line;
   data.options_text =

@@ -113,6 +113,7 @@ struct RunContext {
   std::string command_line;
   /// "complete", "interrupted", the reason of failed tracking, or the error that ended the run.
   std::string outcome;
+  std::string sequence_name;  ///< title of the report
   SequenceIndex sequence;
   Calibration calibration;
   Configuration configuration;
