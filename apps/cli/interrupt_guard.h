@@ -3,7 +3,15 @@
 
 #pragma once
 
+#include <stdexcept>
+
 namespace msc_vo {
+
+/// Work that was ended by a signal and left no result. The command ends with kExitInterrupted.
+class Interrupted : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 /// During its lifetime SIGINT (Ctrl-C), SIGTERM and SIGHUP (closed terminal) set a flag instead of
 /// ending the program. A second SIGINT or SIGTERM ends the program. There must be only one guard at

@@ -16,8 +16,10 @@
 
 #include "apps/cli/command_log.h"
 #include "apps/cli/commands.h"
+#include "apps/cli/interrupt_guard.h"
 #include "apps/cli/standard_streams.h"
 #include "apps/cli/usage_error.h"
+#include "msc_vo/text/shell_word.h"
 #include "msc_vo/text/similar_name.h"
 #include "msc_vo/version.h"
 
@@ -77,7 +79,7 @@ void CheckSubcommand(const std::vector<Command>& commands, const std::string& na
 }
 
 int Main(int argc, char** argv) {
-  for (int i = 0; i < argc; ++i) command_line += (i > 0 ? " " : "") + std::string(argv[i]);
+  for (int i = 0; i < argc; ++i) command_line += (i > 0 ? " " : "") + ShellWord(argv[i]);
   command_arguments.assign(argv + std::min(argc, 1), argv + argc);
   CLI::App app("RGB-D visual odometry from points, lines and the structure of the scene", "msc_vo");
   app.require_subcommand(1);
@@ -121,6 +123,9 @@ int main(int argc, char** argv) {
     const int exit_code = msc_vo::Main(argc, argv);
     msc_vo::FinishStandardOutput();
     return exit_code;
+  } catch (const msc_vo::Interrupted& error) {
+    msc_vo::PrintWarning(error.what());
+    return msc_vo::kExitInterrupted;
   } catch (const msc_vo::UsageError& error) {
     msc_vo::PrintError(error.what());
     return msc_vo::kExitUsage;

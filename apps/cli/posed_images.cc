@@ -22,7 +22,8 @@ std::vector<TimedPose> ReadUsable(const std::string& path, bool all_poses) {
     if (pose.is_estimated || all_poses) poses.push_back(pose);
   }
   if (poses.empty()) {
-    throw std::runtime_error(path + ": has no estimated pose; --all-poses takes the others, too");
+    throw std::runtime_error(path + ": has no estimated pose; --all-poses of msc_vo export and " +
+                             "fuse takes the others, too");
   }
   return poses;
 }

@@ -14,6 +14,7 @@
 #include "apps/cli/number_range.h"
 #include "apps/cli/replay_exports.h"
 #include "msc_vo/text/files.h"
+#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 
@@ -86,7 +87,7 @@ void AddOutputArguments(CLI::App* command, ReplayArguments* arguments) {
                    "Seconds between the checkpoints that --resume continues from; 0: after every "
                    "image")
       ->check(NumberFrom(0.0, 1e6))
-      ->capture_default_str();
+      ->default_str(FormatNumber(arguments->CheckpointInterval()));
 }
 
 }  // namespace
@@ -181,7 +182,7 @@ ReplayArguments StoredArguments(const std::vector<std::string>& typed, const std
   arguments.stdout_poses_json = given.stdout_poses_json;
   arguments.run.strict |= given.run.strict;
   if (given.run.max_frames > 0) arguments.run.max_frames = given.run.max_frames;
-  arguments.checkpoint_interval = given.checkpoint_interval;
+  if (given.checkpoint_interval) arguments.checkpoint_interval = given.checkpoint_interval;
   std::error_code error;
   std::filesystem::current_path(folder, error);
   if (error) {

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,9 +26,9 @@ struct ReplayArguments {
   std::string output;
   bool overwrite = false;  ///< also results of another sequence
   std::string resume;      ///< folder of the results of a run to be continued; may be empty
-  double checkpoint_interval = 5.0;  ///< seconds
-  std::vector<std::string> exports;  ///< FORMAT=PATH
-  std::string windows;               ///< folder; empty: windows are not recorded
+  std::optional<double> checkpoint_interval;  ///< seconds
+  std::vector<std::string> exports;           ///< FORMAT=PATH
+  std::string windows;                        ///< folder; empty: windows are not recorded
   GravityArguments gravity;
   MapArguments map;
   ViewArguments view;
@@ -48,6 +49,7 @@ struct ReplayArguments {
   bool all = false;       ///< of --print-config
   bool markdown = false;  ///< of --print-config
 
+  double CheckpointInterval() const { return checkpoint_interval.value_or(5.0); }
   /// Whether poses are printed as they become known.
   bool StreamsPoses() const { return stdout_poses || stdout_poses_json; }
 };

@@ -34,6 +34,7 @@
 #include "msc_vo/results/summary_json.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
+#include "msc_vo/text/shell_word.h"
 
 namespace msc_vo {
 
@@ -119,10 +120,12 @@ RunIdentity Identify(const ReplayArguments& arguments, const Configuration& conf
   return identity;
 }
 
-// Writes and prints the results. `problem`: why a file that was asked for could not be written;
-// empty if there is none. Returns the exit code.
+// Writes and prints the results, and removes the checkpoint of a complete run. `problem`: why a
+// file that was asked for could not be written; empty if there is none. Clears `exports` if the
+// results that they are made of are not complete. Returns the exit code.
 int WriteResults(const ReplayArguments& arguments, const std::string& output,
-                 const SequenceRun& run, std::string problem, RunFiles* files, ReplayViews* views) {
+                 const SequenceRun& run, std::string problem, RunFiles* files, ReplayViews* views,
+                 std::vector<RunExport>* exports) {
   const auto add_problem = [&problem](const std::string& another) {
     problem += (problem.empty() || another.empty() ? "" : "\n") + another;
   };
@@ -144,14 +147,25 @@ int WriteResults(const ReplayArguments& arguments, const std::string& output,
     std::cout << FormatRunTable(run.summary, run.context, output) << std::flush;
   }
   if (run.exit_code == kExitError) add_problem(run.context.outcome);
+  if (is_complete) {
+    RemoveCheckpoint(output);  // possibly of an earlier run
+  } else {
+    exports->clear();
+  }
+  const bool is_resumable = CheckpointFile::Exists(CheckpointFolder(output));
+  const std::string resume = "msc_vo replay --resume " + ShellWord(output);
   if (!problem.empty()) {
-    // A checkpoint has all that the results are made of.
-    if (is_complete) RemoveCheckpoint(output);
-    const bool resumable = CheckpointFile::Exists(CheckpointFolder(output));
-    throw std::runtime_error(problem + "\n(results so far are in " + output +
-                             (resumable ? "; msc_vo replay --resume continues)" : ")"));
+    if (HasEntry((std::filesystem::path(output) / "trajectory.txt").string())) {
+      problem += "\n(results so far are in " + output +
+                 (is_resumable ? "; to continue: " + resume + ")" : ")");
+    }
+    PrintError(problem);
+    return kExitError;
   }
   if (run.exit_code == kExitTrackingFailed) PrintError(run.context.outcome);
+  if (run.exit_code == kExitInterrupted && is_resumable) {
+    PrintWarning("interrupted; to continue: " + resume);
+  }
   return run.exit_code;
 }
 
@@ -192,7 +206,7 @@ void AddWarnings(const std::vector<std::string>& check_warnings, const GravityFa
 
 // Seconds between two saves of the map. In real time, images do not wait for the disk.
 double MapInterval(const ReplayArguments& arguments, bool realtime) {
-  return realtime ? std::numeric_limits<double>::infinity() : arguments.checkpoint_interval;
+  return realtime ? std::numeric_limits<double>::infinity() : arguments.CheckpointInterval();
 }
 
 // Takes the frames that a resumed run had when it was interrupted.
@@ -221,15 +235,6 @@ void TakeFrame(const ReplayArguments& arguments, const FrameResult& frame, RunFi
             << std::flush;
 }
 
-// Removes what a complete run does not need, or says how to continue it.
-void Conclude(int exit_code, const std::string& output) {
-  if (exit_code != kExitInterrupted) {
-    RemoveCheckpoint(output);  // possibly of an earlier run
-  } else if (CheckpointFile::Exists(CheckpointFolder(output))) {
-    PrintWarning("interrupted; to continue: msc_vo replay --resume " + output);
-  }
-}
-
 // Runs the odometry. `resumed`: null for a new run. `exports`: to be written when the map is free.
 int Run(const ReplayArguments& arguments, Configuration configuration, Resumed* resumed,
         std::vector<RunExport>* exports) {
@@ -240,7 +245,8 @@ int Run(const ReplayArguments& arguments, Configuration configuration, Resumed* 
   const SequenceIdentity sequence = IdentifySequence(decoder.index());
   CheckPaths(arguments, decoder.index(), sequence, output, resumed != nullptr);
   const RunIdentity identity = Identify(arguments, configuration, decoder, resumed);
-  MakeFolder(output);  // fails before the run if it cannot be created
+  MakeFolder(output);
+  CheckWritable((std::filesystem::path(output) / "trajectory.txt").string());
   *exports = PlanExports(arguments, decoder, output);
   const std::unique_ptr<GravityFactors> gravity =
       MakeGravityFactors(arguments.gravity, decoder.index());
@@ -251,14 +257,14 @@ int Run(const ReplayArguments& arguments, Configuration configuration, Resumed* 
   RunMap map(arguments.map, identity.session, MapInterval(arguments, realtime), resumed != nullptr);
   std::unique_ptr<Checkpoints> checkpoints;  // none in real time, which cannot be repeated
   if (!realtime) {
-    checkpoints = MakeCheckpoints(identity, output, arguments.checkpoint_interval, resumed,
+    checkpoints = MakeCheckpoints(identity, output, arguments.CheckpointInterval(), resumed,
                                   {&views, &map, gravity.get()});
   }
   files.AddExpendable(CheckpointFolder(output), [&] {
     checkpoints.reset();  // closes its files
     return RemoveCheckpoint(output);
   });
-  files.AddExpendable(arguments.view.overlay, [&] { return views.RemoveVideo(); });
+  files.AddExpendable(views.PartialVideo(), [&] { return views.RemoveVideo(); });
   std::string window_problem;
   RunCallbacks callbacks;
   callbacks.map = &map;
@@ -284,10 +290,7 @@ int Run(const ReplayArguments& arguments, Configuration configuration, Resumed* 
     return run.exit_code;
   }
   AddWarnings(check_warnings, gravity.get(), &run);
-  const int exit_code = WriteResults(arguments, output, run, window_problem, &files, &views);
-  Conclude(exit_code, output);
-  if (exit_code == kExitInterrupted) exports->clear();
-  return exit_code;
+  return WriteResults(arguments, output, run, window_problem, &files, &views, exports);
 }
 
 int Replay(const ReplayArguments& given) {
@@ -313,8 +316,7 @@ int Replay(const ReplayArguments& given) {
   }
   std::vector<RunExport> exports;
   const int exit_code = Run(arguments, configuration, resumed ? &*resumed : nullptr, &exports);
-  WriteExports(exports);
-  return exit_code;
+  return WriteExports(exports) || exit_code != kExitSuccess ? exit_code : kExitError;
 }
 
 }  // namespace

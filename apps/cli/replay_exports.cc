@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "apps/cli/command_log.h"
-#include "apps/cli/interrupt_guard.h"
 #include "apps/cli/exported_map.h"
+#include "apps/cli/interrupt_guard.h"
 #include "apps/cli/output_file.h"
 #include "msc_vo/exports/colmap_model.h"
 #include "msc_vo/text/files.h"

@@ -44,7 +44,7 @@ std::string ExportMark(const std::string& format);
 /// this build.
 void CheckExport(const RunExport& arguments, const RgbdDecoder& sequence);
 
-/// Writes an export. Throws std::runtime_error, naming the file and the fix.
+/// Writes an export. Throws std::runtime_error, naming the file and the fix, and Interrupted.
 void WriteExport(const RunExport& arguments);
 
 }  // namespace msc_vo

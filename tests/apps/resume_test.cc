@@ -166,6 +166,19 @@ TEST_F(ResumeTest, ContinuesAnInterruptedRun) {
   ExpectRefused(again, Names("state.bin", "exist"));
 }
 
+TEST_F(ResumeTest, KeepsTheIntervalOfTheCheckpoints) {
+  Stop("out", 5, SIGKILL);
+  CommandProcess replay({"replay", "--quiet", "--resume", Path("out")});
+  for (int i = 0; i < 60000 && NumRows("out") < 25; ++i) usleep(1000);
+  replay.Signal(SIGKILL);
+  ASSERT_EQ(replay.Wait(), -SIGKILL) << replay.output();
+  const std::string output = Resume("out", {"--log-level", "info"}).output;
+  const std::string text = "resumed at image ";
+  const size_t at = output.find(text);
+  ASSERT_NE(at, std::string::npos) << output;
+  EXPECT_GE(std::stoi(output.substr(at + text.size())), 20);
+}
+
 TEST_F(ResumeTest, RefusesAnotherRun) {
   Stop("out", 5, SIGKILL);
   ExpectRefused(RunCommand({"replay", Path("room"), "--resume", Path("out"), "--set",
