@@ -217,6 +217,22 @@ TEST_F(SequenceTest, PairsNumberedPlainFoldersByNumberOnly) {
   EXPECT_EQ(OpenSequence(Folder()).entries.size(), 2u);
 }
 
+TEST_F(SequenceTest, MillisecondsAreNoFrameNumbersOfIclNuim) {
+  for (const std::vector<int>& stamps : std::vector<std::vector<int>>{
+           {81533, 81566, 81600}, {81533, 81573, 81613}, {0, 40, 80}, {1000, 1050, 1100}}) {
+    std::string rows;
+    for (const int stamp : stamps) {
+      const std::string name = std::to_string(stamp);
+      rows += name + " depth/" + name + ".png " + name + " rgb/" + name + ".jpg\n";
+    }
+    WriteText("associations.txt", rows);
+    const SequenceIndex index = OpenSequence(Folder());
+    EXPECT_EQ(index.format, "tum");
+    ASSERT_EQ(index.entries.size(), 3u);
+    for (size_t i = 0; i < 3; ++i) EXPECT_EQ(index.entries[i].timestamp, stamps[i] / 1e3);
+  }
+}
+
 TEST_F(SequenceTest, GroundTruthOfPlainFoldersHasUnitInWhichItCoversImages) {
   const auto check = [&](const std::vector<std::string>& names,
                          const std::vector<std::string>& stamps, double first, double last) {

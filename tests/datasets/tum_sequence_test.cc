@@ -229,21 +229,6 @@ TEST_F(TumSequenceTest, RecognisesIclNuimWithoutGroundTruth) {
   EXPECT_EQ(OpenSequence(Folder()).format, "tum");
 }
 
-TEST_F(TumSequenceTest, IclNuimIsNotRecognisedByMilliseconds) {
-  for (const std::vector<int>& stamps : std::vector<std::vector<int>>{
-           {81533, 81566, 81600}, {81533, 81573, 81613}, {0, 40, 80}, {1000, 1050, 1100}}) {
-    std::string rows;
-    for (const int stamp : stamps) {
-      const std::string name = std::to_string(stamp);
-      rows += name + " depth/" + name + ".png " + name + " rgb/" + name + ".jpg\n";
-    }
-    WriteText("associations.txt", rows);
-    const SequenceIndex index = OpenSequence(Folder());
-    EXPECT_EQ(index.format, "tum");
-    EXPECT_THAT(Stamps(index), ElementsAre(stamps[0] / 1e3, stamps[1] / 1e3, stamps[2] / 1e3));
-  }
-}
-
 TEST_F(TumSequenceTest, ReadsIclNuimWithoutLists) {
   for (const char* name : {"0", "1", "2", "10"}) {
     WriteColor(std::string("rgb/") + name + ".png");
