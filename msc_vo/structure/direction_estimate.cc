@@ -106,8 +106,8 @@ std::vector<std::optional<DirectionEstimate>> EstimateDirections(const WindowDat
     index[line.id] = fits.size();
     fits.emplace_back(line.segment.Direction());
   }
+  // Rejected observations count as well. Chosen by measurement, see docs/lab/structure.md.
   for (const WindowData::LineObservation& observation : window.line_observations) {
-    if (observation.rejected) continue;
     const size_t i = index.at(observation.line);
     AddObservation(window, observation, *poses.at(observation.keyframe), window.lines[i], &fits[i]);
   }

@@ -4,7 +4,6 @@
 #include "msc_vo/structure/direction_estimate.h"
 
 #include <cmath>
-#include <vector>
 
 #include "tests/support/synthetic_frames.h"
 #include "tests/support/synthetic_map.h"
@@ -73,26 +72,6 @@ TEST(DirectionEstimate, DoesNotDependOnTheDirectionOfTheMapLine) {
   for (size_t i = 0; i < before.size(); ++i) {
     ASSERT_TRUE(before[i] && after[i]);
     EXPECT_LT(UndirectedAngle(before[i]->direction, after[i]->direction), DegreesToRadians(0.1));
-  }
-}
-
-// Of lines that two keyframes observe, the second observation is wrong.
-TEST(DirectionEstimate, DoesNotUseRejectedObservations) {
-  WindowData window = MakeWindow(1);
-  const auto without = EstimateDirections(window);
-  window.keyframes.push_back(window.keyframes.front());
-  window.keyframes.back().id = 1;
-  for (WindowData::LineObservation wrong : std::vector(window.line_observations)) {
-    wrong.keyframe = 1;
-    wrong.segment.end.y() += 40.0;  // pixels
-    wrong.rejected = true;
-    window.line_observations.push_back(wrong);
-  }
-  const auto with = EstimateDirections(window);
-  for (size_t i = 0; i < without.size(); ++i) {
-    ASSERT_TRUE(without[i] && with[i]);
-    EXPECT_EQ(with[i]->direction, without[i]->direction);
-    EXPECT_EQ(with[i]->covariance, without[i]->covariance);
   }
 }
 
