@@ -190,13 +190,8 @@ MapSnapshotPtr Odometry::State::SubmitKeyframe(const TrackedFrame& tracked,
   const MapSnapshotPtr visible = MapAt(timestamp, error);
   if (visible->map.FindKeyframe(id) == nullptr) return map;
   // The latency is 0: its pose is that in its own map.
-  FrameResult& result = results.back();
-  const Rigid3 tracked_pose = std::exchange(result.cam_from_world, visible->map.CamFromWorld(id));
-  result.world = visible->world;
-  if (result.covariance) {
-    result.covariance = CovarianceOfCamera(result.cam_from_world,
-                                           CameraCovariance(tracked_pose, *result.covariance));
-  }
+  results.back().cam_from_world = visible->map.CamFromWorld(id);
+  results.back().world = visible->world;
   return visible;
 }
 

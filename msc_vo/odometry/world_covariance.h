@@ -18,7 +18,8 @@ namespace msc_vo {
 class WorldCovariance {
  public:
   /// Sets FrameResult::world_covariance of a frame whose pose is in `map`, which knows its
-  /// reference keyframe.
+  /// reference keyframe, and FrameResult::covariance, which tracking has given in another world if
+  /// the map was joined since.
   void Set(const TrackedFrame& tracked, const MapSnapshotPtr& map, FrameResult* result);
 
  private:

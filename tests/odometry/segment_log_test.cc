@@ -3,9 +3,13 @@
 
 #include "msc_vo/odometry/segment_log.h"
 
+#include <memory>
+
 #include <gtest/gtest.h>
 
 #include "msc_vo/geometry/so3.h"
+#include "msc_vo/odometry/world_covariance.h"
+#include "msc_vo/tracking/tracked_frame.h"
 
 namespace msc_vo {
 namespace {
@@ -32,6 +36,22 @@ TEST(SegmentLog, KeepsTheCovarianceOfTheCameraWhenAPoseIsCorrected) {
   const PoseCovariance after = CameraCovariance(final[0].cam_from_world, *final[0].covariance);
   EXPECT_LT((after - before).norm(), 1e-9 * before.norm());
   EXPECT_GT((*final[0].covariance - *tracked[0].covariance).norm(), 0.01 * before.norm());
+}
+
+// The map of a keyframe was joined with another one, whose world is 20 m away, since it was
+// tracked.
+TEST(WorldCovariance, KeepsTheCovarianceOfTheCameraInAnotherWorld) {
+  const PoseCovariance of_camera = IsotropicCovariance(0.001, 0.002);
+  auto snapshot = std::make_shared<MapSnapshot>();
+  FrameResult result;
+  result.cam_from_world = Rigid3(Eigen::Quaterniond::Identity(), {20.0, 0.0, 1.0});
+  result.covariance = of_camera;
+  TrackedFrame tracked;
+  tracked.reference = snapshot->map.AddKeyframe(std::make_shared<Frame>(), result.cam_from_world);
+  tracked.pose.covariance = of_camera;  // at the origin of its world
+  WorldCovariance().Set(tracked, snapshot, &result);
+  EXPECT_LT((CameraCovariance(result.cam_from_world, *result.covariance) - of_camera).norm(),
+            1e-12);
 }
 
 }  // namespace
