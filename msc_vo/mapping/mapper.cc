@@ -223,7 +223,6 @@ MapSnapshotPtr Mapper::Snapshot() {
 void Mapper::ApplyCalibration(KeyframeId newest) {
   atlas_.ChangeAll([this](SubMap* submap) {
     calibration_.ChangeMap(&submap->map);
-    submap->planes.RemoveKeyframesOfThisRun(submap->map);
     // The calibration of earlier sessions is kept.
     const bool is_of_earlier_session =
         !submap->map.keyframes().empty() &&
@@ -231,6 +230,7 @@ void Mapper::ApplyCalibration(KeyframeId newest) {
     if (is_of_earlier_session) return;
     submap->axes = SceneAxes(options_.axes);
     submap->noise = NoiseEstimator(options_.noise);
+    submap->planes.RemoveKeyframesOfThisRun(submap->map);
   });
   SubMap& submap = atlas_.current();
   optimizer_.OptimizeMap(newest, &submap);

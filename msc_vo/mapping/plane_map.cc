@@ -39,7 +39,7 @@ LandmarkId PlaneOf(const ExtraBlock& block) { return PlaneMap::kFirstBlock - 1 -
 bool IsPlane(const ExtraBlock& block) { return block.id < PlaneMap::kFirstBlock; }
 
 // The planes of a keyframe, of which two features may be parts of one.
-std::set<LandmarkId> PlanesOf(const std::vector<PlaneMatch>& matches) {
+std::set<LandmarkId> DistinctPlanes(const std::vector<PlaneMatch>& matches) {
   std::set<LandmarkId> planes;
   for (const PlaneMatch& match : matches) planes.insert(match.plane);
   return planes;
@@ -55,6 +55,8 @@ double SquaredResidual(const PlaneFeature& feature, const Rigid3& cam_from_world
              ? residual.squaredNorm()
              : std::numeric_limits<double>::infinity();
 }
+
+Plane InCamera(const PlaneFeature& feature) { return {feature.Normal(), feature.Distance()}; }
 
 // Extends a plane by an extent in another frame.
 void ExtendBy(const PlaneExtent& extent, const Rigid3& host_from_extent, HostedPlane* plane) {
@@ -77,7 +79,7 @@ void PlaneMap::AddKeyframe(const Map& map, KeyframeId keyframe, const PoseCovari
   for (const PlaneMatch& match : matches) is_known[match.feature] = true;
   for (size_t i = 0; i < features.size(); ++i) {
     if (is_known[i]) continue;
-    planes_[next_] = {keyframe, Plane(features[i].Normal(), features[i].Distance())};
+    planes_[next_] = {keyframe, InCamera(features[i])};
     matches.push_back({static_cast<int>(i), next_++});
   }
   for (const PlaneMatch& match : matches) Grow(map, added, match);
@@ -167,10 +169,19 @@ void PlaneMap::RemoveKeyframesOfThisRun(const Map& map) {
   const auto first = std::find_if(keyframes_.begin(), keyframes_.end(), [&map](const auto& entry) {
     return !map.IsOfEarlierSession(entry.first);
   });
-  if (first == keyframes_.end()) return;
   keyframes_.erase(first, keyframes_.end());
-  noise_ = PlaneMap().noise_;
   Renew(map);
+  noise_ = PlaneMap().noise_;
+  planes_.clear();
+  for (const auto& [id, matches] : keyframes_) {
+    const Keyframe& observer = *map.FindKeyframe(id);
+    for (const PlaneMatch& match : matches) {
+      const Plane in_host = InCamera(observer.frame->planes[match.feature]);
+      planes_.try_emplace(match.plane, HostedPlane{id, in_host});
+      Grow(map, observer, match);
+    }
+  }
+  *this = Fitted(map);
 }
 
 void PlaneMap::FollowFrames(const Map& map) {
@@ -180,8 +191,7 @@ void PlaneMap::FollowFrames(const Map& map) {
     for (const PlaneMatch& match : matches) {
       HostedPlane& plane = planes_.at(match.plane);
       if (keyframe == nullptr || plane.host != id || num_observations[match.plane] > 1) continue;
-      const PlaneFeature& feature = keyframe->frame->planes[match.feature];
-      plane.in_host = Plane(feature.Normal(), feature.Distance());
+      plane.in_host = InCamera(keyframe->frame->planes[match.feature]);
     }
   }
 }
@@ -191,7 +201,7 @@ void PlaneMap::AddTo(const Map& map, WindowData* window) const {
   for (const WindowData::Keyframe& keyframe : window->keyframes) {
     const auto seen = keyframes_.find(keyframe.id);
     if (seen == keyframes_.end()) continue;
-    for (const LandmarkId plane : PlanesOf(seen->second)) ++num_observers[plane];
+    for (const LandmarkId plane : DistinctPlanes(seen->second)) ++num_observers[plane];
   }
   static const auto manifold = std::make_shared<const PlaneManifold>();
   const MapPlanes in_world = InWorld(map);
@@ -290,7 +300,7 @@ MapPlanes PlaneMap::InWorld(const Map& map) const {
 std::map<LandmarkId, int> PlaneMap::NumObservations() const {
   std::map<LandmarkId, int> counts;
   for (const auto& [id, matches] : keyframes_) {
-    for (const LandmarkId plane : PlanesOf(matches)) ++counts[plane];
+    for (const LandmarkId plane : DistinctPlanes(matches)) ++counts[plane];
   }
   return counts;
 }

@@ -34,7 +34,8 @@ class PlaneMap {
   /// keyframes of both are in one map now.
   void Join(PlaneMap other);
   /// Forgets the observations of keyframes that are not of earlier sessions, the planes that only
-  /// they observed, and the noise that was learnt from them.
+  /// they observed, and the noise. The other planes are determined anew, each with its host and
+  /// extent, from the observations that remain.
   void RemoveKeyframesOfThisRun(const Map& map);
   /// Takes the planes with a single observation from it again: the frame of its keyframe may have
   /// been replaced, as by another compensation.

@@ -287,6 +287,23 @@ TEST_F(PlaneExtentsTest, AreSavedWithAHostThatIsInTheMap) {
   EXPECT_EQ(Planes().size(), 2u);
 }
 
+// A map of this run is joined with one of an earlier session, whose plane becomes part of its own.
+TEST_F(PlaneExtentsTest, OfEarlierSessionsDoNotDependOnTheRun) {
+  const KeyframeId earlier = AddPatch(-1.0, 0.0);
+  PlaneMap other = std::exchange(planes_, PlaneMap());
+  map_.BeginSession();
+  const KeyframeId own = AddPatch(-0.2, 1.3, Forward(0.02));
+  planes_.Join(std::move(other));
+  planes_.MergeDuplicates(map_, own);
+  ASSERT_EQ(planes_.Save(map_).planes.at(0).host, own);
+  ASSERT_NEAR(Width(Planes()[0]), 2.3, 1e-2);
+  planes_.RemoveKeyframesOfThisRun(map_);
+  EXPECT_EQ(planes_.Save(map_).planes.at(0).host, earlier);
+  ASSERT_EQ(Planes().size(), 1u);
+  EXPECT_NEAR(Width(Planes()[0]), 1.0, 1e-9);
+  EXPECT_LT((Planes()[0].plane.params - Plane({0.0, 0.0, -1.0}, 2.0).params).norm(), 1e-9);
+}
+
 TEST_F(PlaneMapTest, JoinsKeepThePlanesOfBothMaps) {
   PlaneMap other;
   auto frame = std::make_shared<Frame>();
