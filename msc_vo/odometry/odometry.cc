@@ -190,7 +190,7 @@ MapSnapshotPtr Odometry::State::SubmitKeyframe(const TrackedFrame& tracked,
   const MapSnapshotPtr visible = MapAt(timestamp, error);
   if (visible->map.FindKeyframe(id) == nullptr) return map;
   // The latency is 0: its pose is that in its own map.
-  results.back().cam_from_world = visible->map.CamFromWorld(id);
+  ReplacePose(visible->map.CamFromWorld(id), &results.back());
   results.back().world = visible->world;
   return visible;
 }

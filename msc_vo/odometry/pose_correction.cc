@@ -7,6 +7,8 @@
 #include <map>
 #include <memory>
 
+#include "msc_vo/geometry/pose_covariance.h"
+
 namespace msc_vo {
 
 namespace {
@@ -83,6 +85,14 @@ void DiscardFrames(int first, std::vector<FrameResult>* frames,
     Discard(before, &(*frames)[i]);
     (*poses)[i] = pose_before;
   }
+}
+
+void ReplacePose(const Rigid3& cam_from_world, FrameResult* frame) {
+  if (frame->covariance) {
+    frame->covariance = CovarianceOfCamera(
+        cam_from_world, CameraCovariance(frame->cam_from_world, *frame->covariance));
+  }
+  frame->cam_from_world = cam_from_world;
 }
 
 void SetPoses(const Atlas& atlas, const std::vector<ReferencedPose>& poses,

@@ -29,6 +29,10 @@ void CorrectPoses(const InactiveMaps& maps_before, const MapSnapshot& after,
 /// there is none.
 void DiscardFrames(int first, std::vector<FrameResult>* frames, std::vector<ReferencedPose>* poses);
 
+/// Replaces the pose of a frame, as by that in another world. The covariance of the camera in its
+/// own frame remains.
+void ReplacePose(const Rigid3& cam_from_world, FrameResult* frame);
+
 /// Sets the poses of `frames`, one per pose, from those of their keyframes in the maps of `atlas`.
 void SetPoses(const Atlas& atlas, const std::vector<ReferencedPose>& poses,
               std::vector<FrameResult>* frames);

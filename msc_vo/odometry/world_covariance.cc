@@ -28,11 +28,10 @@ void WorldCovariance::Set(const TrackedFrame& tracked, const MapSnapshotPtr& map
   if (!result->covariance || tracked.reference == kNoId) return;
   if (map_ != map) keyframes_ = FromOrigin(map->map, map->loops);
   map_ = map;
-  const PoseCovariance camera = CameraCovariance(tracked.cam_from_world, tracked.pose.covariance);
-  result->covariance = CovarianceOfCamera(result->cam_from_world, camera);
   result->world_covariance = CovarianceOfCamera(
       result->cam_from_world,
-      WithDrift(*keyframes_, {tracked.reference, tracked.cam_from_reference}, camera));
+      WithDrift(*keyframes_, {tracked.reference, tracked.cam_from_reference},
+                CameraCovariance(tracked.cam_from_world, tracked.pose.covariance)));
 }
 
 void SetWorldCovariances(const Mapper& mapper, const std::vector<ReferencedPose>& poses,

@@ -18,8 +18,7 @@ namespace msc_vo {
 class WorldCovariance {
  public:
   /// Sets FrameResult::world_covariance of a frame whose pose is in `map`, which knows its
-  /// reference keyframe, and FrameResult::covariance, which tracking has given in another world if
-  /// the map was joined since.
+  /// reference keyframe.
   void Set(const TrackedFrame& tracked, const MapSnapshotPtr& map, FrameResult* result);
 
  private:

@@ -3,13 +3,10 @@
 
 #include "msc_vo/odometry/segment_log.h"
 
-#include <memory>
-
 #include <gtest/gtest.h>
 
 #include "msc_vo/geometry/so3.h"
-#include "msc_vo/odometry/world_covariance.h"
-#include "msc_vo/tracking/tracked_frame.h"
+#include "msc_vo/odometry/pose_correction.h"
 
 namespace msc_vo {
 namespace {
@@ -38,20 +35,15 @@ TEST(SegmentLog, KeepsTheCovarianceOfTheCameraWhenAPoseIsCorrected) {
   EXPECT_GT((*final[0].covariance - *tracked[0].covariance).norm(), 0.01 * before.norm());
 }
 
-// The map of a keyframe was joined with another one, whose world is 20 m away, since it was
-// tracked.
-TEST(WorldCovariance, KeepsTheCovarianceOfTheCameraInAnotherWorld) {
-  const PoseCovariance of_camera = IsotropicCovariance(0.001, 0.002);
-  auto snapshot = std::make_shared<MapSnapshot>();
-  FrameResult result;
-  result.cam_from_world = Rigid3(Eigen::Quaterniond::Identity(), {20.0, 0.0, 1.0});
-  result.covariance = of_camera;
-  TrackedFrame tracked;
-  tracked.reference = snapshot->map.AddKeyframe(std::make_shared<Frame>(), result.cam_from_world);
-  tracked.pose.covariance = of_camera;  // at the origin of its world
-  WorldCovariance().Set(tracked, snapshot, &result);
-  EXPECT_LT((CameraCovariance(result.cam_from_world, *result.covariance) - of_camera).norm(),
-            1e-12);
+// The map of a keyframe was joined with another one, whose world is 20 m away.
+TEST(PoseCorrection, KeepsTheCovarianceOfTheCameraInAnotherWorld) {
+  FrameResult frame = TrackedAt({ExpSO3({0.1, 0.2, 0.3}), {4.0, 0.0, 1.0}});
+  const PoseCovariance before = CameraCovariance(frame.cam_from_world, *frame.covariance);
+  const Rigid3 other(ExpSO3({0.0, 0.5, 0.0}), {20.0, 0.0, 1.0});
+  ReplacePose(other, &frame);
+  EXPECT_EQ(frame.cam_from_world.params, other.params);
+  const PoseCovariance after = CameraCovariance(other, *frame.covariance);
+  EXPECT_LT((after - before).norm(), 1e-9 * before.norm());
 }
 
 }  // namespace

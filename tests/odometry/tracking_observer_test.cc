@@ -24,6 +24,9 @@ TEST_F(TrackingObserverTest, SeesEveryFrameWithItsMatchesAndMap) {
     EXPECT_EQ(image.image.id, image.result.id);
     EXPECT_EQ(static_cast<int>(image.tracked.matches.points.size()),
               image.result.num_inlier_points);
+    if (!image.result.is_keyframe) {
+      EXPECT_EQ(image.result.covariance, image.tracked.pose.covariance) << "to the last bit";
+    }
     EXPECT_EQ(static_cast<int>(image.features.points.size()), image.result.num_points);
     for (const LineMatch& match : image.tracked.matches.lines) {
       ASSERT_LT(static_cast<size_t>(match.feature), image.features.lines.size());
