@@ -20,8 +20,7 @@ class RecordedImage {
   RecordedImage() = default;
   /// `gray`: CV_8UC1, or empty if it is not needed; `depth`: CV_32FC1, metres; 0, NaN: no
   /// measurement. Of equal size. `sensor`: that took the depth.
-  RecordedImage(const cv::Mat& gray, const cv::Mat& depth,
-                DepthSensor sensor = DepthSensor::kStructuredLight);
+  RecordedImage(const cv::Mat& gray, const cv::Mat& depth, DepthSensor sensor);
 
   DepthSensor sensor() const { return sensor_; }
 

@@ -121,7 +121,7 @@ class CalibratingMapper {
       const auto [simulated, depth] = camera_.Record(known.cam_from_world);
       const cv::Mat gray(depth.size(), CV_8UC1, cv::Scalar(128));  // without edges
       known.frame = simulated;
-      known.image = std::make_shared<RecordedImage>(gray, depth);
+      known.image = std::make_shared<RecordedImage>(gray, depth, DepthSensor::kStructuredLight);
     }
     const auto frame = std::make_shared<Frame>(*known.frame);
     frame->id = next_;

@@ -136,7 +136,7 @@ TEST(DepthPreparation, MeasuresDepthAgainWithAnyRegistration) {
   frame.points[0].pixel = {140.0, 120.0};
   frame.points[1].pixel = {185.0, 120.0};
   const RgbdImage image = ImageWithEdge(172);
-  const RecordedImage recorded(image.gray, image.depth);
+  const RecordedImage recorded(image.gray, image.depth, DepthSensor::kStructuredLight);
   for (const double shift : {12.0, -28.0, 12.0}) {  // the edge is at column 160, 200, 160
     const auto corrected = std::make_shared<CameraIntrinsics>(Corrected(*given, ShiftBy(shift)));
     const std::shared_ptr<const Frame> measured = measure(frame, recorded, corrected);
@@ -158,13 +158,14 @@ TEST(DepthPreparation, MeasuresDepthAgainWithoutARegistration) {
   frame.points[0].pixel = {140.0, 120.0};
   frame.points[1].pixel = {185.0, 120.0};
   const RgbdImage image = ImageWithEdge(172);
-  const auto measured = measure(frame, RecordedImage(image.gray, image.depth), given);
+  const auto measured =
+      measure(frame, RecordedImage(image.gray, image.depth, DepthSensor::kStructuredLight), given);
   EXPECT_EQ(measured->intrinsics, given);
   EXPECT_NEAR(measured->points[0].inverse_depth, 1.0 / kFar, 1e-3);
   EXPECT_NEAR(measured->points[1].inverse_depth, 1.0 / kNear, 1e-3);
 }
 
-// A reduced image does not tell which sensor took it.
+// The sensor cannot be inferred from a reduced image.
 TEST(DepthPreparation, MeasuresDepthAgainWithTheSensorOfTheRun) {
   const auto given = Given();
   const RgbdImage image = ImageWithEdge(172);

@@ -33,7 +33,9 @@ class SimulatedRun {
         },
         &map_);
     const cv::Mat gray(depth.size(), CV_8UC1, cv::Scalar(128));  // without edges
-    return estimator_.Update(map_, id, std::make_shared<RecordedImage>(gray, depth), {}, 0.0);
+    return estimator_.Update(
+        map_, id, std::make_shared<RecordedImage>(gray, depth, DepthSensor::kStructuredLight), {},
+        0.0);
   }
   void AddKeyframes(int count) {
     for (int i = 0; i < count; ++i) num_changes_ += Add(SimulatedCamera::PoseOf(i)) ? 1 : 0;

@@ -19,7 +19,7 @@ std::shared_ptr<const RecordedImage> BoxImage(int shift) {
   gray(box).setTo(200);
   cv::Mat depth(480, 640, CV_32FC1, cv::Scalar(3.0));
   depth(box + cv::Point(shift, 0)).setTo(1.0);
-  return std::make_shared<RecordedImage>(gray, depth);
+  return std::make_shared<RecordedImage>(gray, depth, DepthSensor::kStructuredLight);
 }
 
 RecordedImages BoxImages(int shift) {
@@ -56,7 +56,8 @@ TEST(RecordedImages, EdgesAgreeWithARegistrationThatMovesThemOntoImageEdges) {
 TEST(RecordedImages, ImagesWithoutEdgesDoNotContradict) {
   RecordedImages images;
   images.Add(0, std::make_shared<RecordedImage>(cv::Mat(480, 640, CV_8UC1, cv::Scalar(40)),
-                                                cv::Mat(480, 640, CV_32FC1, cv::Scalar(2.0))));
+                                                cv::Mat(480, 640, CV_32FC1, cv::Scalar(2.0)),
+                                                DepthSensor::kStructuredLight));
   EXPECT_TRUE(images.EdgesAgree({kCamera, {}}, WithShift(12.0)));
 }
 

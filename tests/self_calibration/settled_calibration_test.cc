@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -40,7 +41,8 @@ std::vector<Recording> Record(const S::Vector& truth, const std::vector<Rigid3>&
   for (const Rigid3& pose : poses) {
     const auto [frame, depth] = camera.Record(pose);
     const cv::Mat gray(depth.size(), CV_8UC1, cv::Scalar(128));  // without edges
-    recordings.push_back({frame, std::make_shared<RecordedImage>(gray, depth), pose});
+    recordings.push_back(
+        {frame, std::make_shared<RecordedImage>(gray, depth, DepthSensor::kStructuredLight), pose});
   }
   return recordings;
 }
@@ -225,6 +227,38 @@ S::Vector Truth(double focal_length, double depth_focal_length) {
   truth(S::kFocalLength) = focal_length;
   truth(S::kDepthFocalLength) = depth_focal_length;
   return truth;
+}
+
+// Replaces the information of the map in the state of an estimator: depth is certainly registered.
+struct MapOfRegisteredDepth {
+  template <typename... Members>
+  void operator()(Members&... members) const {
+    (Set(&members), ...);
+  }
+  template <typename Member>
+  static void Set(Member* /*member*/) {}
+  static void Set(std::optional<CalibrationInformation>* of_map) {
+    of_map->emplace();
+    for (const int i : IndicesOf(CorrectionGroup::kDepthRegistration)) {
+      (*of_map)->matrix(i, i) = 1e8;
+    }
+  }
+};
+
+// Without images, depths cannot be measured again.
+TEST(SettledCalibration, KeepsARegistrationThatTheMapContradicts) {
+  SettledRun run(Record(Truth(0.0, 0.06), HandHeldPoses()));
+  run.Settle();
+  CalibrationEstimator estimator = run.estimator();
+  const auto present = estimator.present();
+  ASSERT_TRUE(present->registration);
+  const MapOfRegisteredDepth contradiction;
+  estimator.Serialize(contradiction);
+  run.AddToMap();
+  EXPECT_FALSE(estimator.Update(run.map(), run.newest(), nullptr, {}, 0.0));
+  EXPECT_LT(estimator.estimate().log_odds[3], -std::log(kAcceptedOdds));
+  EXPECT_EQ(estimator.estimate().is_corrected, (CorrectionGroups{false, false, false, true}));
+  EXPECT_EQ(estimator.present(), present);
 }
 
 // A camera whose depth images are not registered, and whose lens gets warm once the estimate has

@@ -40,7 +40,8 @@ class SurfacePlaneTest : public testing::TestWithParam<int> {
   std::optional<InverseDepthPlane> KeptSurfaceAt(double x, double y) const {
     const LinearizedCamera camera(CorrectedCamera(camera_, LensDistortion()),
                                   SensorCorrection::Vector::Zero());
-    return FindSurface(camera, RecordedImage(cv::Mat(), depth_), scale_ * Eigen::Vector2d(x, y));
+    return FindSurface(camera, RecordedImage(cv::Mat(), depth_, DepthSensor::kStructuredLight),
+                       scale_ * Eigen::Vector2d(x, y));
   }
 
   double scale_;

@@ -16,7 +16,7 @@ TEST(RecordedImage, KeepsDepthToAnEighthOfAMillimetre) {
   depth.at<float>(0, 1) = 1.23456f;
   depth.at<float>(1, 2) = 15.9f;
   const cv::Mat gray(2, 3, CV_8UC1, cv::Scalar(77));
-  const RecordedImage image(gray, depth);
+  const RecordedImage image(gray, depth, DepthSensor::kStructuredLight);
   EXPECT_LE(cv::norm(image.Depth(), depth, cv::NORM_INF), 0.000126);
   EXPECT_EQ(cv::norm(image.Gray(), gray, cv::NORM_INF), 0.0);
   EXPECT_NEAR(image.At(1, 0), 1.0 / 1.23456, 1e-4);
@@ -29,7 +29,8 @@ TEST(RecordedImage, WhatIsNoDepthOrTooFarIsNoMeasurement) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float infinity = std::numeric_limits<float>::infinity();
   const cv::Mat depth = (cv::Mat_<float>(1, 4) << nan, infinity, -1.0f, 17.0f);
-  const RecordedImage image(cv::Mat(1, 4, CV_8UC1, cv::Scalar(0)), depth);
+  const RecordedImage image(cv::Mat(1, 4, CV_8UC1, cv::Scalar(0)), depth,
+                            DepthSensor::kStructuredLight);
   EXPECT_EQ(cv::countNonZero(image.Depth()), 0);
 }
 
@@ -44,7 +45,7 @@ TEST(RecordedImage, ReducesWideImages) {
         gray.at<uint8_t>(y, x) = static_cast<uint8_t>(200.0 * scale * x);
       }
     }
-    const RecordedImage image(gray, depth);
+    const RecordedImage image(gray, depth, DepthSensor::kStructuredLight);
     const int step = image.step();
     EXPECT_NEAR(size.width / step, 320, 1);
     for (const cv::Point kept : {cv::Point(0, 0), cv::Point(17, 90), cv::Point(319, 119)}) {
@@ -68,7 +69,7 @@ TEST(RecordedImage, InterpolatesOnOneSurfaceOnly) {
   depth.colRange(301, 640).setTo(1.0);
   gray.colRange(301, 640).setTo(200);
   depth.rowRange(0, 100).setTo(0.0);
-  const RecordedImage image(gray, depth);
+  const RecordedImage image(gray, depth, DepthSensor::kStructuredLight);
   const cv::Mat found = image.Depth(), found_gray = image.Gray();
   int edge = 0, gray_edge = 0;
   for (int x = 0; x < 640; ++x) {

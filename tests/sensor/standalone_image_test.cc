@@ -101,7 +101,7 @@ std::vector<NamedFunction> Functions() {
          return DepthRegistration(depth_camera, kCamera, {}).Register(depth);
        }},
       {"RecordedImage", [](const cv::Mat& gray, const cv::Mat& depth) {
-         return RecordedImage(gray, depth).Depth();
+         return RecordedImage(gray, depth, DepthSensor::kStructuredLight).Depth();
        }}};
 }
 
