@@ -4,7 +4,6 @@
 // ICL-NUIM: a TUM-style folder whose stamps are frame numbers, depth first in its associations,
 // ground truth in *.gt.freiburg, and a camera with negative fy.
 
-#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -12,6 +11,7 @@
 
 #include "msc_vo/datasets/image_folder.h"
 #include "msc_vo/datasets/image_list.h"
+#include "msc_vo/datasets/median_interval.h"
 #include "msc_vo/datasets/name_pairing.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/datasets/time_unit.h"
@@ -23,12 +23,8 @@ namespace msc_vo {
 
 namespace {
 
-// Distinguishes frame numbers from whole milliseconds: every nth frame is counted from 0 or 1,
-// while a clock begins anywhere and runs on by 20 ms or more between images.
-bool CountFromBegin(const std::vector<double>& stamps) {
-  const std::optional<double> step = CountingStep(stamps);
-  return step && *step < 20.0 && std::fmod(stamps.front(), *step) <= 1.0;
-}
+// Median step from which whole numbers may be milliseconds of images at 50 Hz or less.
+constexpr double kMinMilliseconds = 20.0;
 
 // Tests whether the association file names depth first and has frame numbers for stamps, which no
 // other data set does.
@@ -42,7 +38,8 @@ bool HasIclNuimAssociations(const std::string& directory) {
     if (line.fields.size() != 4 || !stamp || line.fields[1].rfind("depth", 0) != 0) return false;
     stamps.push_back(*stamp);
   }
-  return AreFrameNumbers(stamps) && CountFromBegin(stamps) && IsDepthFirst(lines);
+  return AreFrameNumbers(stamps) && CountFrames(stamps) &&
+         MedianInterval(stamps) < kMinMilliseconds && IsDepthFirst(lines);
 }
 
 // Requires properties of this data set only, because its camera is mirrored.

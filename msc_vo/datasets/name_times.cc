@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <set>
 #include <utility>
 
 #include "msc_vo/datasets/calendar_time.h"
@@ -162,18 +163,16 @@ bool AreUsable(const std::vector<double>& seconds) {
 // How sure it is that whole numbers, which are no dates, are times.
 enum class Certainty { kNo, kPossible, kYes };
 Certainty AreTimes(const std::vector<double>& numbers) {
-  constexpr double kMaxFrameStep = 60.0;            // two seconds without an image at 30 Hz
-  constexpr double kMinMilliseconds = 1e3 / 120.0;  // interval of the fastest RGB-D cameras
+  constexpr double kMaxFrameStep = 60.0;  // two seconds without an image at 30 Hz
   const double median = MedianInterval(numbers);
-  if (numbers.size() < 3 || median < kMinMilliseconds) return Certainty::kNo;
+  if (numbers.size() < 3 || median < 1e3 * kMinImageInterval) return Certainty::kNo;
   if (median > kMaxFrameStep) return Certainty::kYes;
-  const std::optional<double> step = CountingStep(numbers);
-  if (!step) {
+  const bool repeats = std::set<double>(numbers.begin(), numbers.end()).size() < numbers.size();
+  if (repeats || !CountingStep(numbers)) {
     const bool is_regular = 2 * CountRegularSteps(numbers) + 1 >= numbers.size();
     return is_regular ? Certainty::kYes : Certainty::kNo;
   }
-  // Every nth frame of a recording is counted from 0 or 1; a clock begins anywhere.
-  return std::fmod(numbers[0], *step) > 1.0 ? Certainty::kYes : Certainty::kPossible;
+  return CountFrames(numbers) ? Certainty::kPossible : Certainty::kYes;
 }
 
 // Whether the times do not ascend although a number before them does, such as a counter or the

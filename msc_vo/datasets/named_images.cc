@@ -113,7 +113,7 @@ void ReadNumbers(const Names& names, const std::optional<NameTimes>& times, Name
     const bool is_time =
         times && times->is_certain && run >= times->first_run && run <= times->last_run;
     const std::vector<double> keys = is_time ? std::vector<double>() : KeysOf(names, run);
-    count_frames = !keys.empty() && CountingStep(keys);
+    count_frames = keys.size() == 1 || CountingStep(keys);
     if (keys.empty() || (!count_frames && !images->numbers.empty())) continue;
     images->numbers.assign(keys.begin(), keys.end());
   }

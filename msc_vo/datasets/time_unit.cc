@@ -109,7 +109,7 @@ double Overlap(const TimeRange& a, const TimeRange& b) {
 std::optional<double> CountingStep(std::vector<double> numbers) {
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-  if (numbers.size() < 2) return 0.0;
+  if (numbers.size() < 2) return std::nullopt;
   double smallest = numbers[1] - numbers[0];
   for (size_t i = 2; i < numbers.size(); ++i) {
     smallest = std::min(smallest, numbers[i] - numbers[i - 1]);
@@ -118,6 +118,13 @@ std::optional<double> CountingStep(std::vector<double> numbers) {
     if (std::fmod(number - numbers[0], smallest) != 0.0) return std::nullopt;
   }
   return smallest;
+}
+
+bool CountFrames(const std::vector<double>& numbers) {
+  const std::optional<double> step = CountingStep(numbers);
+  if (!step) return false;
+  return MedianInterval(numbers) < 1e3 * kMinImageInterval ||
+         std::fmod(numbers.front(), *step) <= 1.0;
 }
 
 bool AreFrameNumbers(const std::vector<double>& stamps) {

@@ -31,6 +31,8 @@ TimeRange RangeOf(const std::vector<double>& seconds, TimeUnit unit);
 /// is no such unit.
 std::optional<TimeUnit> UnitOfDate(double stamp);
 
+/// Smallest interval of the images of an RGB-D camera, seconds.
+constexpr double kMinImageInterval = 1.0 / 120.0;
 /// Largest median interval of the images of a recording, seconds; far above that of any camera.
 constexpr double kMaxImageInterval = 5.0;
 /// The same for the poses of a trajectory, which may be sparse.
@@ -50,8 +52,12 @@ TimeUnit GuessTimeUnit(const std::vector<double>& stamps,
 double Overlap(const TimeRange& a, const TimeRange& b);
 
 /// Returns the step in which numbers, in any order, count: their smallest step, if all steps are
-/// multiples of it; 0 if all numbers are equal. None if they do not count.
+/// multiples of it. None if they do not count, or fewer than two differ.
 std::optional<double> CountingStep(std::vector<double> numbers);
+
+/// Tests whether whole numbers count frames: in steps that are too small for milliseconds between
+/// images, or every nth frame from 0 or 1, while a clock has an arbitrary origin.
+bool CountFrames(const std::vector<double>& numbers);
 
 /// Tests whether the stamps may be frame numbers: whole numbers with steps of at most 60.
 bool AreFrameNumbers(const std::vector<double>& stamps);

@@ -13,6 +13,7 @@
 #include "msc_vo/datasets/camera_file.h"
 #include "msc_vo/datasets/image_list.h"
 #include "msc_vo/datasets/image_pairing.h"
+#include "msc_vo/datasets/median_interval.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/datasets/time_unit.h"
 #include "msc_vo/datasets/trajectory_format.h"
@@ -42,9 +43,11 @@ double StampsPerSecond(const std::string& name, const std::vector<double>& stamp
     const TimeRange range = RangeOf(stamps, unit);
     return images ? Overlap({range.begin / rate, range.end / rate, unit}, *images) : 1.0;
   };
-  if (whole == WholeStamps::kFrameNumbers && AreFrameNumbers(stamps) &&
-      overlap_at(kDefaultFrameRate) >= overlap_at(UnitsPerSecond(unit))) {
-    return kDefaultFrameRate;
+  if (whole == WholeStamps::kFrameNumbers && AreFrameNumbers(stamps)) {
+    const double overlap = overlap_at(kDefaultFrameRate);
+    // Ground truth of a whole recording overlaps little with the images of a part.
+    const bool is_of_more = overlap > 0.0 && MedianInterval(stamps) < 1e3 * kMinImageInterval;
+    if (is_of_more || overlap >= overlap_at(UnitsPerSecond(unit))) return kDefaultFrameRate;
   }
   if (!images) index->stamp_unit = unit;
   if (!images && unit == TimeUnit::kSeconds && AreFrameNumbers(stamps)) {
@@ -90,8 +93,8 @@ ImageLists ReadLists(const fs::path& folder, std::vector<std::string>* warnings)
   return {ReadImageList(color, warnings), ReadImageList(depth, warnings)};
 }
 
-// Reads the reference that `record` writes, whose first comment says what it is. A file of another
-// origin is none of the sequence.
+// Reads the reference that `record` writes, whose first comment says what it is. Other
+// files of this name are ignored.
 void ReadReferenceFile(const std::string& path, WholeStamps whole, SequenceIndex* index) {
   if (!HasEntry(path)) return;
   const std::vector<TextLine> lines = ReadTextLines(path);

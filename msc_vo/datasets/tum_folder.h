@@ -23,7 +23,7 @@ enum class WholeStamps {
 /// nanoseconds to seconds, with a warning.
 void ReadTumEntries(const std::string& directory, WholeStamps whole, SequenceIndex* index);
 
-/// Begin of the first comment in the reference.txt of a folder; SequenceIndex::reference follows.
+/// Prefix of the first comment in the reference.txt of a folder; SequenceIndex::reference follows.
 inline constexpr char kReferenceComment[] = "poses of ";
 
 /// Reads groundtruth.txt, *.gt.freiburg or reference.txt if one exists; converts stamps like

@@ -257,6 +257,26 @@ TEST_F(SequenceTest, GroundTruthOfPlainFoldersHasUnitInWhichItCoversImages) {
   check({"240", "241", "270"}, {"240", "255", "270"}, 8.0, 9.0);
 }
 
+TEST_F(SequenceTest, GroundTruthOfMoreFramesThanImagesIsAt30Hz) {
+  std::string rows;
+  for (int i = 0; i < 50; ++i) {
+    const std::string name = std::to_string(i);
+    const std::string color = "rgb/" + name + ".png";
+    const std::string depth = "depth/" + name + ".png";
+    WriteColor(color);
+    WriteDepth(depth);
+    rows += name + " " + depth + " " + name + " " + color + "\n";
+  }
+  std::string truth;
+  for (int i = 1; i <= 1508; ++i) truth += std::to_string(i) + " 0 0 0 0 0 0 1\n";
+  WriteText("groundtruth.txt", truth);
+  EXPECT_EQ(OpenSequence(Folder()).format, "rgb-depth");
+  EXPECT_DOUBLE_EQ(OpenSequence(Folder()).ground_truth.back().timestamp, 1508 / 30.0);
+  WriteText("associations.txt", rows);
+  EXPECT_EQ(OpenSequence(Folder()).format, "icl-nuim");
+  EXPECT_DOUBLE_EQ(OpenSequence(Folder()).ground_truth.back().timestamp, 1508 / 30.0);
+}
+
 TEST_F(SequenceTest, PairsPlainFoldersWithoutNumbersByOrder) {
   for (const std::string name : {"a", "b"}) {
     WriteColor("color/" + name + ".png");

@@ -82,8 +82,15 @@ TEST(GuessTimeUnit, PrefersUnitOfReference) {
 
 TEST(CountingStep, IsSmallestStepIfItDividesAll) {
   EXPECT_EQ(CountingStep({30, 0, 10, 10}), 10.0);
-  EXPECT_EQ(CountingStep({7, 7}), 0.0);
+  EXPECT_EQ(CountingStep({7, 7}), std::nullopt);
   EXPECT_EQ(CountingStep({0, 33, 67}), std::nullopt);
+}
+
+TEST(CountFrames, DistinguishesFramesFromMilliseconds) {
+  EXPECT_TRUE(CountFrames({302, 307, 312, 322}));  // a part, every fifth frame
+  EXPECT_TRUE(CountFrames({1, 41, 81}));           // every 40th frame
+  EXPECT_FALSE(CountFrames({1013, 1053, 1093}));   // 25 Hz
+  EXPECT_FALSE(CountFrames({1000, 1033, 1067}));   // 30 Hz
 }
 
 }  // namespace
