@@ -132,10 +132,11 @@ class LivePageTest(unittest.TestCase):
 
     def test_a_vanished_viewer_does_not_stop_the_run(self):
         url = self.start()
-        self.control(url, "speed&value=1")  # four seconds, enough to open the page
+        self.control(url, "speed&value=0.1")  # 40 seconds, enough to open the page
         self.browser.driver.get(url)
         self.browser.wait_for(lambda: self.count() > 0, what="a frame")
         self.browser.driver.get("about:blank")
+        self.control(url, "speed&value=0")
         self.assertEqual(self.run.wait(timeout=60), 0)
         self.assertTrue((pathlib.Path(self.folder.name) / "report.html").exists())
 
