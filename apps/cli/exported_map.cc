@@ -16,6 +16,7 @@
 #include "apps/cli/command_log.h"
 #include "apps/cli/exported_images.h"
 #include "apps/cli/map_input.h"
+#include "apps/cli/output_file.h"
 #include "msc_vo/exports/colmap_model.h"
 #include "msc_vo/exports/map_export.h"
 #include "msc_vo/text/files.h"
@@ -73,10 +74,32 @@ std::function<std::string(const Keyframe&)> ImageNames(const RunExport& argument
   };
 }
 
+// Throws std::runtime_error if one file of an export may not be replaced. `mark`: see HasMark();
+// empty: none.
+void CheckFile(const RunExport& arguments, const std::string& file, const std::string& mark) {
+  RefuseToOverwrite({arguments.map}, file);
+  if (mark.empty()) {
+    return RefuseToReplaceInFolder(arguments.sequence.directory, file, mark, arguments.overwrite);
+  }
+  if (arguments.overwrite.value_or(false) || !HasEntry(file) || HasMark(file, mark)) return;
+  throw std::runtime_error(file + ": exists, and is no earlier " + arguments.format +
+                           " export; remove it, give another path" +
+                           (arguments.overwrite ? ", or use --overwrite" : ""));
+}
+
 }  // namespace
 
 std::string ColmapImageName(const SequenceIndex& index, const SequenceEntry& entry) {
   return fs::path(entry.color_path).lexically_relative(index.directory).string();
+}
+
+void CheckMapExport(const RunExport& arguments) {
+  if (arguments.format == "g2o") return CheckFile(arguments, arguments.output, kG2oMark);
+  for (const ModelFile& file : arguments.binary ? FormatColmapBinary({}) : FormatColmapText({})) {
+    const std::string header = file.content.substr(0, file.content.find('\n'));
+    CheckFile(arguments, (fs::path(arguments.output) / file.name).string(),
+              arguments.binary ? "" : header);
+  }
 }
 
 void WriteMapExport(const RunExport& arguments) {
@@ -84,7 +107,7 @@ void WriteMapExport(const RunExport& arguments) {
     throw std::runtime_error(arguments.map + ": results of a run have no observations of points; " +
                              "run again with --map home.map, and export home.map");
   }
-  RefuseToOverwrite({arguments.map}, arguments.output);
+  CheckMapExport(arguments);
   MapContents contents = LoadKeyframes(arguments.map);
   const SavedSubMap submap = LargestSubMap(arguments.map, &contents);
   if (arguments.format == "g2o") {
@@ -96,9 +119,7 @@ void WriteMapExport(const RunExport& arguments) {
       arguments.binary ? FormatColmapBinary(model) : FormatColmapText(model);
   MakeFolder(arguments.output);
   for (const ModelFile& file : files) {
-    const std::string path = (fs::path(arguments.output) / file.name).string();
-    RefuseToOverwrite({arguments.map}, path);
-    WriteFile(path, file.content);
+    WriteFile((fs::path(arguments.output) / file.name).string(), file.content);
   }
 }
 

@@ -75,7 +75,8 @@ void AddOutputArguments(CLI::App* command, ReplayArguments* arguments) {
   CLI::Option* output = command->add_option(
       "--output", arguments->output, "Folder for the results; default: out/<name of the sequence>");
   command->add_flag("--overwrite", arguments->overwrite,
-                    "Write into a folder that holds the results of another sequence");
+                    "Write into a folder that holds the results of another sequence, and exports "
+                    "over files that may be input");
   command
       ->add_option("--resume", arguments->resume,
                    "Continue the unfinished run whose results are in this folder, with the options "

@@ -28,10 +28,12 @@ void CheckBeforeRun(const RunExport& one, const ReplayArguments& arguments,
     throw std::runtime_error("is made of the map of the run; add --map FILE");
   }
   CheckExport(one, sequence);
+  if (IsMapFormat(one.format)) CheckMapExport(one);
   std::vector<std::string> inputs = arguments.configuration.InputFiles();
   inputs.insert(inputs.end(), {one.map, arguments.map.localize});
   if (one.format != "colmap") {
-    return CheckOutputFile(one.output, inputs, {sequence.index()}, ExportMark(one.format));
+    return CheckOutputFile(one.output, inputs, {sequence.index()}, ExportMark(one.format),
+                           one.overwrite);
   }
   RefuseToOverwrite(InputFolders(sequence.index()), one.output);
   if (!one.sequence.directory.empty()) {  // whose images are named
@@ -70,6 +72,7 @@ std::vector<RunExport> PlanExports(const ReplayArguments& arguments, const RgbdD
     one.output = text.substr(text.find('=') + 1);
     const SequenceIndex& index = sequence.index();
     one.requires_features = false;
+    one.overwrite = arguments.overwrite;
     // The images of a live camera are gone after the run.
     if (one.format == "mcap" && index.camera) one.map.clear();
     if (one.format != "colmap" || (!index.container && !index.camera && !index.scale_color)) {
@@ -88,13 +91,15 @@ std::vector<RunExport> PlanExports(const ReplayArguments& arguments, const RgbdD
 
 bool WriteExports(const std::vector<RunExport>& exports) {
   bool are_written = true;
-  for (const RunExport& one : exports) {
+  for (auto one = exports.begin(); one != exports.end(); ++one) {
     try {
-      WriteExport(one);
+      WriteExport(*one);
     } catch (const Interrupted&) {
-      throw;
+      std::string left;
+      for (; one != exports.end(); ++one) left += " " + NameOf(*one);
+      throw Interrupted("interrupted; not written:" + left + "; msc_vo export can write them");
     } catch (const std::exception& error) {
-      PrintError(NameOf(one) + ": " + error.what());
+      PrintError(NameOf(*one) + ": " + error.what());
       are_written = false;
     }
   }

@@ -20,8 +20,8 @@ std::string CheckExportText(const std::string& text);
 std::vector<RunExport> PlanExports(const ReplayArguments& arguments, const RgbdDecoder& sequence,
                                    const std::string& output);
 
-/// Writes exports, also those after one that cannot be written, which is an error that is printed.
-/// Returns whether all are written. Throws Interrupted.
+/// Writes exports. Continues after a failed export and prints its error. Returns whether all are
+/// written. Throws Interrupted, which names those that are not.
 bool WriteExports(const std::vector<RunExport>& exports);
 
 }  // namespace msc_vo

@@ -34,6 +34,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr char kTumMark[] = "# written by msc_vo export";
+
+bool NeedsImages(const std::string& format) { return format == "nerfstudio" || format == "ply"; }
+
 std::string FileOf(const std::string& run, const char* name) {
   return (fs::path(run) / name).string();
 }
@@ -69,7 +73,9 @@ void WarnOfMissingLines(const std::string& path, size_t num_lines) {
 
 std::string FormatTrajectoryOf(const RunExport& arguments) {
   const std::string path = TrajectoryPath(arguments.run);
-  if (arguments.format == "tum") return FormatTrajectory(ReadPoses(path, arguments.poses));
+  if (arguments.format == "tum") {
+    return std::string(kTumMark) + "\n" + FormatTrajectory(ReadPoses(path, arguments.poses));
+  }
   const std::vector<TimedPose> poses = ReadPosesOfOneWorld(path, arguments.poses);
   if (arguments.format == "euroc") return FormatEuroc(poses);
   WarnOfMissingLines(path, poses.size());
@@ -207,12 +213,13 @@ bool IsMapFormat(const std::string& format) { return format == "colmap" || forma
 
 std::string ExportMark(const std::string& format) {
   if (format == "nerfstudio") return kNerfstudioMark;
+  if (format == "tum") return kTumMark;
+  if (format == "g2o") return kG2oMark;
   return format == "ply" ? kSurfaceMark : "";
 }
 
 void CheckExport(const RunExport& arguments, const RgbdDecoder& sequence) {
-  const bool needs_images = arguments.format == "nerfstudio" || arguments.format == "ply";
-  if (needs_images && sequence.index().camera) {
+  if (NeedsImages(arguments.format) && sequence.index().camera) {
     throw std::runtime_error(
         "the images of a live camera are gone after the run; record them with msc_vo record");
   }
@@ -239,7 +246,10 @@ void WriteExport(const RunExport& arguments) {
   if (!arguments.map.empty()) inputs.push_back(arguments.map);
   if (const auto identity = ReadIdentity(arguments.run)) {
     inputs.push_back(identity->path);
-    RefuseToReplaceInFolder(identity->path, arguments.output, ExportMark(arguments.format));
+    if (!NeedsImages(arguments.format)) {  // which is checked with the images
+      RefuseToReplaceInFolder(identity->path, arguments.output, ExportMark(arguments.format),
+                              arguments.overwrite);
+    }
   }
   RefuseToOverwrite(inputs, arguments.output);
   if (arguments.format == "mcap") return WriteMcap(arguments);

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,9 @@ struct RunExport {
   SequenceArguments sequence;  ///< its directory is that of the results if empty
   ConfigurationArguments configuration;
   PoseSelection poses;
-  bool binary = false;  ///< colmap
-  bool images = false;  ///< mcap
+  bool binary = false;            ///< colmap
+  bool images = false;            ///< mcap
+  std::optional<bool> overwrite;  ///< see RefuseToReplaceInFolder()
   /// mcap: whether a map without keyframes of the run is an error; else features are left out with
   /// a warning.
   bool requires_features = true;
@@ -36,8 +38,8 @@ const std::vector<std::string>& ExportFormats();
 /// Whether a format is made of a map file: colmap and g2o.
 bool IsMapFormat(const std::string& format);
 
-/// Text at the beginning of the exports of a format, see RefuseToReplaceInSequence(). Empty if
-/// other programs write the same.
+/// Text at the beginning of the exports of a format, see HasMark(). Empty if earlier exports cannot
+/// be distinguished from inputs.
 std::string ExportMark(const std::string& format);
 
 /// Throws std::runtime_error that names the fix if a format cannot be made of a sequence, or not by

@@ -192,8 +192,88 @@ TEST_F(OverwritingTest, ExportReplacesOnlyFilesOfItsOwnInTheFolderOfTheSequence)
         RunCommand({"export", Path("out"), "nerfstudio", Path("room/mine.json")});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
   }
+  for (int i = 0; i < 2; ++i) {
+    const CommandOutcome outcome =
+        RunCommand({"export", Path("out"), "tum", Path("room/poses.txt")});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  }
   WriteText("out.csv", "mine\n");
   EXPECT_EQ(RunCommand({"export", Path("out"), "euroc", Path("out.csv")}).exit_code, 0);
+}
+
+TEST_F(OverwritingTest, ReplayCanBeRepeatedWithItsExports) {
+  Synthesize("room");
+  fs::create_directories(Path("room/out/exports"));
+  const auto replay = [&](const std::string& text, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments = {"replay",         Path("room"), "--quiet", "--output",
+                                          Path("room/out"), "--export",   text};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return RunCommand(arguments);
+  };
+  for (const std::string& text :
+       {"kitti=" + Path("room/out/exports/poses.txt"), "tum=" + Path("room/poses.txt")}) {
+    for (int i = 0; i < 2; ++i) EXPECT_EQ(replay(text).exit_code, 0) << text;
+  }
+  // Others may have written such files, too.
+  const std::string euroc = "euroc=" + Path("room/poses.csv");
+  EXPECT_EQ(replay(euroc).exit_code, 0);
+  const CommandOutcome again = replay(euroc);
+  EXPECT_EQ(again.exit_code, 1);
+  EXPECT_THAT(again.output, LineNames("error:", Path("room/poses.csv"), "--overwrite"));
+  EXPECT_EQ(replay(euroc, {"--overwrite"}).exit_code, 0);
+  fs::copy_file(Path("room/poses.txt"), Path("room/groundtruth.txt"),
+                fs::copy_options::overwrite_existing);
+  const std::string truth = ReadFile(Path("room/groundtruth.txt"));
+  for (const char* format : {"kitti=", "tum="}) {
+    EXPECT_EQ(replay(format + Path("room/groundtruth.txt"), {"--overwrite"}).exit_code, 1);
+  }
+  EXPECT_EQ(ReadFile(Path("room/groundtruth.txt")), truth);
+}
+
+// Also beside a sequence.json that is not of a run over the sequence.
+TEST_F(OverwritingTest, ResultsOfOtherSequencesAreInputInTheFolderOfTheSequence) {
+  Synthesize("room");
+  fs::create_directory(Path("other"));
+  for (const std::string& json : {R"({"path": ")" + Path("other") + R"("})", std::string("{}")}) {
+    WriteText("room/dump/sequence.json", json);
+    WriteText("room/dump/chair.ply", "ply\n");
+    WriteText("room/dump/camera.yaml", "camera:\n");
+    const auto before = Contents("room");
+    ExpectRefused({"fuse", Path("room"), Path("room/groundtruth.txt"), "--output",
+                   Path("room/dump/chair.ply")});
+    ExpectRefused({"calibrate", Path("room"), "--output", Path("room/dump/camera.yaml")});
+    EXPECT_EQ(Contents("room"), before) << json;
+  }
+}
+
+TEST_F(OverwritingTest, ExportsOfMapsReplaceOnlyExportsOfMaps) {
+  Synthesize("room");
+  const std::string map = Path("x.map");
+  ASSERT_EQ(RunCommand({"replay", Path("room"), "--quiet", "--output", Path("out"), "--map", map})
+                .exit_code,
+            0);
+  WriteText("room/images.txt", "# my list\n");
+  WriteText("room/imu.csv", "#timestamp [ns]\n");
+  WriteText("room/sparse/points3D.bin", "a model");
+  const auto before = Contents("room");
+  const auto refuse = [&](const std::vector<std::string>& arguments, const std::string& file) {
+    const CommandOutcome outcome = RunCommand(arguments);
+    EXPECT_EQ(outcome.exit_code, 1) << testing::PrintToString(arguments);
+    EXPECT_THAT(outcome.output, LineNames("error:", Path(file), "remove"));
+  };
+  refuse({"export", map, "g2o", Path("room/imu.csv")}, "room/imu.csv");
+  refuse({"export", map, "colmap", Path("room")}, "room/images.txt");
+  refuse({"export", map, "colmap", Path("room/sparse"), "--binary", "--sequence", Path("room")},
+         "room/sparse/points3D.bin");
+  refuse({"replay", Path("room"), "--output", Path("new"), "--map", Path("new.map"), "--export",
+          "g2o=" + Path("room/imu.csv")},
+         "room/imu.csv");
+  EXPECT_FALSE(HasEntry(Path("new/trajectory.txt")));
+  EXPECT_EQ(Contents("room"), before);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(RunCommand({"export", map, "g2o", Path("room/graph.g2o")}).exit_code, 0);
+    EXPECT_EQ(RunCommand({"export", map, "colmap", Path("room/model")}).exit_code, 0);
+  }
 }
 
 TEST_F(OverwritingTest, CalibrateReplacesOnlyCamerasInTheFolderOfTheSequence) {

@@ -5,18 +5,23 @@
 // there is nothing to export, or if they are interrupted.
 
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
+#include <memory>
+#include <string>
 
 #include "tests/apps/command_process.h"
 #include "tests/apps/rendered_sequence.h"
 #include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
+#include <sys/stat.h>
 
 #include "msc_vo/datasets/trajectory.h"
 #include "msc_vo/text/files.h"
+#include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
 namespace {
@@ -99,18 +104,66 @@ TEST_F(ReplayOutputTest, ReportHasTheNameOfTheSequence) {
 }
 
 #ifdef MSC_VO_HAS_FUSION
-TEST_F(ReplayOutputTest, InterruptedFusionOfAnExportIsNoError) {
-  ASSERT_EQ(Replay({"--output", Path("out")}).exit_code, 0);
-  int exit_code = -SIGINT;
-  // A signal that comes before the fusion begins ends the program.
-  for (double microseconds = 1e5; exit_code == -SIGINT; microseconds *= 1.25) {
-    CommandProcess process({"export", Path("out"), "ply", Path("cloud.ply"), "--voxel", "0.005"});
-    usleep(static_cast<useconds_t>(microseconds));
-    process.Signal(SIGINT);
-    exit_code = process.Wait();
+// A sequence whose images cannot be read when its depth is fused. The warnings do not fit into a
+// pipe: the fusion waits for a test that does not read them, and is interrupted on any machine.
+class FusionOfManyImagesTest : public ReplayOutputTest {
+ protected:
+  void SetUp() override {
+    ReplayOutputTest::SetUp();
+    const auto copy = [this](const std::string& from, const std::string& to) {
+      fs::create_directories(fs::path(Path(to)).parent_path());
+      fs::copy_file(from, Path(to));
+    };
+    const std::string color = ListFolder(Path("room/rgb")).front();
+    copy(color, "still/rgb/first.png");
+    copy(color, "still/" + image_);
+    copy(Path("room/depth/" + fs::path(color).filename().string()), "still/depth/all.png");
+    copy(Path("room/camera.txt"), "still/camera.txt");
+    std::string list = "0.000000 rgb/first.png 0.000000 depth/all.png\n";
+    for (int i = 1; i < 250; ++i) {
+      const std::string stamp = FormatText("%.6f ", 0.04 * i);
+      list += stamp + image_ + " " + stamp + "depth/all.png\n";
+    }
+    WriteText("still/associations.txt", list);
   }
-  EXPECT_EQ(exit_code, 130);
+  void DamageImages() { WriteText("still/" + image_, "damaged"); }
+  // Interrupts the fusion. Returns the exit code.
+  int Interrupt(CommandProcess* process) {
+    EXPECT_TRUE(process->WaitForOutput(image_));
+    process->Signal(SIGINT);
+    return process->Wait();
+  }
+
+ private:
+  const std::string image_ = "rgb/" + std::string(240, 'x') + ".png";
+};
+
+TEST_F(FusionOfManyImagesTest, ThatIsInterruptedIsNoError) {
+  ASSERT_EQ(RunCommand({"replay", Path("still"), "--quiet", "--output", Path("out")}).exit_code, 0);
+  DamageImages();
+  CommandProcess process({"export", Path("out"), "ply", Path("cloud.ply")});
+  EXPECT_EQ(Interrupt(&process), 130);
   EXPECT_FALSE(HasEntry(Path("cloud.ply")));
+}
+
+TEST_F(FusionOfManyImagesTest, ThatIsInterruptedNamesTheExportsThatAreLeft) {
+  ASSERT_EQ(mkfifo(Path("pipe").c_str(), 0600), 0);
+  const std::string ply = "ply=" + Path("cloud.ply"), tum = "tum=" + Path("poses.txt");
+  CommandProcess replay({"replay", Path("still"), "--quiet", "--json", "--output", Path("out"),
+                         "--export", ply, "--export", tum},
+                        Path("pipe"));
+  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(fopen(Path("pipe").c_str(), "r"), fclose);
+  ASSERT_GT(fcntl(fileno(pipe.get()), F_SETPIPE_SZ, 4096), 0);
+  ASSERT_EQ(setvbuf(pipe.get(), nullptr, _IONBF, 0), 0);
+  ASSERT_EQ(fgetc(pipe.get()), '{');  // the run has ended, and waits for the rest to be read
+  DamageImages();
+  char line[4096];
+  do {
+    ASSERT_NE(fgets(line, sizeof(line), pipe.get()), nullptr);
+  } while (line != std::string("}\n"));
+  EXPECT_EQ(Interrupt(&replay), 130);
+  EXPECT_THAT(replay.output(), LineNames("--export " + ply, "--export " + tum, "msc_vo export"));
+  EXPECT_FALSE(HasEntry(Path("poses.txt")));
 }
 #endif
 
