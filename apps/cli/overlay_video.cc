@@ -66,7 +66,7 @@ cv::Mat DrawFeatures(const cv::Mat& gray, const ViewedFeatures& features) {
 OverlayVideo::OverlayVideo(const std::string& path, double frame_rate, int width, int height,
                            const LensDistortion& distortion)
     : path_(path),
-      partial_(path + ".partial.mp4"),  // the ending tells the encoder the format
+      partial_(path + ".partial.mp4"),  // the encoder chooses the format by the extension
       covered_(0, 0, width / 2 * 2, height / 2 * 2),
       distortion_(distortion) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
@@ -74,6 +74,7 @@ OverlayVideo::OverlayVideo(const std::string& path, double frame_rate, int width
   CheckWritable(path);
   video_ = LoadVideoFile();
   if (video_->Open(partial_, frame_rate, covered_.size())) return;
+  RemovePartial();
   throw std::runtime_error(
       path +
       ": cannot be written as a video; check that the folder can be written, "
@@ -89,6 +90,10 @@ void OverlayVideo::Add(const TrackedImage& tracked) {
 
 OverlayVideo::~OverlayVideo() {
   video_->Close();
+  RemovePartial();
+}
+
+void OverlayVideo::RemovePartial() const {
   std::error_code ignored;
   std::filesystem::remove(partial_, ignored);
 }

@@ -19,7 +19,7 @@ namespace msc_vo {
 cv::Mat DrawFeatures(const cv::Mat& gray, const ViewedFeatures& features);
 
 /// A video of the images of a run with their tracked features. It is written to a temporary file,
-/// so that a file of its name remains until the video is complete.
+/// so that a file of its name remains until Finish().
 class OverlayVideo {
  public:
   /// Creates the temporary file, and its folder if necessary. `frame_rate`: frames per second;
@@ -42,6 +42,8 @@ class OverlayVideo {
   const std::string& partial() const { return partial_; }
 
  private:
+  void RemovePartial() const;
+
   std::string path_;
   std::string partial_;
   cv::Rect covered_;  // encoders need even sizes

@@ -58,7 +58,7 @@ TEST_F(OverlayVideoTest, DoesNotChangeTheTrajectory) {
   EXPECT_EQ(ReadFile(Path("out/trajectory.txt")), plain);
 }
 
-TEST_F(OverlayVideoTest, ReplacesAVideoWhenTheRunIsComplete) {
+TEST_F(OverlayVideoTest, ReplacesAVideoAtTheEndOfTheRun) {
   WriteText("room.mp4", "an earlier one");
   WriteText("broken.map", "no map");
   EXPECT_EQ(Replay({"--overlay", Path("room.mp4"), "--map", Path("broken.map")}).exit_code, 1);
