@@ -96,10 +96,9 @@ void CheckOutputs(const CalibrateArguments& arguments, const std::vector<RgbdDec
   CheckOutputFile(arguments.plot, inputs, sequences, std::string("<title>") + kPlotTitle);
 }
 
-// Prints the results and writes the files, first the one that counts. Throws std::runtime_error if
-// the estimate is no camera.
-// `first`: the first sequence.
-void WriteResults(const CalibrateArguments& arguments, const SequenceIndex& first,
+// Prints the results and writes the files, first the one that counts. `stored_size`: of the colour
+// images, if they are reduced. Throws std::runtime_error if the estimate is no camera.
+void WriteResults(const CalibrateArguments& arguments, const std::optional<ImageSize>& stored_size,
                   const CalibrationReport& report) {
   if (arguments.run.json) {
     std::cout << FormatCalibrationJson(report) << std::flush;
@@ -107,7 +106,7 @@ void WriteResults(const CalibrateArguments& arguments, const SequenceIndex& firs
     std::cout << FormatCalibrationTable(report) << std::flush;
   }
   if (report.problem.empty() && !arguments.output.empty()) {
-    const Calibration stored = StoredCalibration(first, report.used);
+    const Calibration stored = StoredCalibration(report.used, stored_size);
     WriteFile(arguments.output, FormatChangedOptions(CameraConfiguration(stored), kCameraMark));
   }
   if (!arguments.plot.empty()) {
@@ -120,15 +119,15 @@ void WriteResults(const CalibrateArguments& arguments, const SequenceIndex& firs
 int Run(const CalibrateArguments& arguments) {
   Configuration configuration = MakeConfiguration(arguments.configuration);
   std::vector<RgbdDecoder> decoders = OpenSequences(arguments, configuration);
-  const SequenceIndex first = decoders.front().index();
-  UseDepthSensorOf(first, &configuration.odometry);
+  const std::optional<ImageSize> stored_size = decoders.front().index().reduced_from;
+  UseDepthSensorOf(decoders.front().index(), &configuration.odometry);
   CheckOutputs(arguments, decoders);
   RunArguments run = arguments.run;
   run.quiet = run.quiet || run.json;
   const InterruptGuard interrupt;
   CalibrationRounds rounds(std::move(decoders), configuration, run, interrupt);
   const ExitCode exit_code = rounds.Run();
-  if (exit_code == kExitSuccess) WriteResults(arguments, first, rounds.report());
+  if (exit_code == kExitSuccess) WriteResults(arguments, stored_size, rounds.report());
   return exit_code;
 }
 

@@ -360,7 +360,7 @@ void BindOdometry(py::module_* module) {
            "callback(TrackedImage) is called with every frame that process() has tracked, for "
            "display. ValueError after the first image.")
       .def("skip_clipped_depth_search", &PyOdometry::SkipClippedDepthSearch,
-           "Takes depth as measured at any value. For images of a Sequence, which leaves out "
+           "Disables the search for clipped depth. For images of a Sequence, which leaves out "
            "clipped depth itself. ValueError after the first image.")
       .def("map", &PyOdometry::CopyOfMap,
            "Waits for local mapping and returns a copy of the present Map.");

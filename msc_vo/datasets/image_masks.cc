@@ -104,17 +104,18 @@ cv::Mat ImageMasks::Read(const std::string& color_path, const ImageSize& size) c
 }
 
 cv::Mat ScaledMask(const cv::Mat& mask, const cv::Size& size) {
+  if (mask.size() == size) return mask != 0;
   cv::Mat counts;  // of masked pixels above and to the left
   cv::integral(cv::min(mask, 1), counts, CV_32S);
   cv::Mat scaled(size, CV_8UC1);
   for (int y = 0; y < size.height; ++y) {
     const int top = y * mask.rows / size.height;
     const int bottom = ((y + 1) * mask.rows + size.height - 1) / size.height;
+    const int *above = counts.ptr<int>(top), *below = counts.ptr<int>(bottom);
     for (int x = 0; x < size.width; ++x) {
       const int left = x * mask.cols / size.width;
       const int right = ((x + 1) * mask.cols + size.width - 1) / size.width;
-      const int count = counts.at<int>(bottom, right) - counts.at<int>(top, right) -
-                        counts.at<int>(bottom, left) + counts.at<int>(top, left);
+      const int count = below[right] - above[right] - below[left] + above[left];
       scaled.at<uint8_t>(y, x) = count > 0 ? 255 : 0;
     }
   }

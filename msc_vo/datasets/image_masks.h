@@ -54,8 +54,8 @@ class ImageMasks {
   std::map<std::string, std::string> files_;  // of a folder, by their names without ending
 };
 
-/// Returns a mask (CV_8UC1) for an image of another size: 255 where any part of a pixel is masked,
-/// which is not 0; else 0.
+/// Returns a mask (CV_8UC1) for an image of another size: 255 where a pixel overlaps a masked
+/// (non-zero) one, else 0.
 cv::Mat ScaledMask(const cv::Mat& mask, const cv::Size& size);
 
 /// The masks of a sequence; null if `path` is empty. `zero`: pixels that are zero are left out.

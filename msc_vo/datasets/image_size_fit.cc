@@ -85,10 +85,11 @@ void FitToImageSizes(const ImageSize& color, const ImageSize& depth, std::option
                  color.width, color.height, reduced.width, reduced.height));
 }
 
-Calibration StoredCalibration(const SequenceIndex& index, const Calibration& calibration) {
+Calibration StoredCalibration(const Calibration& calibration,
+                              const std::optional<ImageSize>& stored_size) {
   Calibration stored = calibration;
-  if (index.reduced_from) {
-    stored.SetRecorded(ScaledCamera(calibration.Recorded(), *index.reduced_from));
+  if (stored_size) {
+    stored.SetRecorded(ScaledCamera(calibration.Recorded(), *stored_size));
     stored.SetUndistorted();
   }
   return stored;

@@ -43,7 +43,8 @@ void FitToImageSizes(const ImageSize& color, const ImageSize& depth, std::option
                      SequenceIndex* index, Calibration* calibration);
 
 /// Returns the calibration of the stored images for that of the images that FitToImageSizes() has
-/// reduced.
-Calibration StoredCalibration(const SequenceIndex& index, const Calibration& calibration);
+/// reduced. `stored_size`: SequenceIndex::reduced_from.
+Calibration StoredCalibration(const Calibration& calibration,
+                              const std::optional<ImageSize>& stored_size);
 
 }  // namespace msc_vo

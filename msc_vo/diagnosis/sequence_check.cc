@@ -155,7 +155,7 @@ bool IsCalibrated(const Findings& findings) {
 }
 
 void AddMotionFindings(const RgbdDecoder& decoder, const OdometryOptions& options,
-                       Findings* findings) {
+                       const DepthUnits& units, Findings* findings) {
   const Calibration& calibration = decoder.calibration();
   const MotionTrack track = TrackMotion(decoder, options, kDeepImages);
   AddFrameMotionFindings(track, calibration.camera.width, findings);
@@ -167,8 +167,8 @@ void AddMotionFindings(const RgbdDecoder& decoder, const OdometryOptions& option
     findings->push_back(
         Good(kCalibrationCheck, "calibration against motion: not tested, too few images match"));
   }
-  AddGroundTruthMotionFindings(track, decoder.index().ground_truth, FindDepthUnits(decoder),
-                               IsCalibrated(*findings), findings);
+  AddGroundTruthMotionFindings(track, decoder.index().ground_truth, units, IsCalibrated(*findings),
+                               findings);
   AddNoiseFindings(track, findings);
 }
 
@@ -228,7 +228,7 @@ Findings CheckSequence(const RgbdDecoder& decoder, const SequenceCheckOptions& o
     findings.push_back(
         Good(kCalibrationCheck, "calibration against motion: not tested, depth is not depth"));
   } else if (options.deep) {
-    AddMotionFindings(decoder, options.odometry, &findings);
+    AddMotionFindings(decoder, options.odometry, sample.units, &findings);
   } else {
     findings.push_back(Good(kCalibrationCheck,
                             "calibration against motion: not tested; to test it, run msc_vo check "

@@ -87,6 +87,10 @@ TEST(ScaledMask, LeavesOutPixelsThatAreMaskedInPart) {
   EXPECT_THAT(columns(4, 1, 4), testing::ElementsAre(1));
   EXPECT_THAT(columns(6, 2, 4), testing::ElementsAre(1));  // 1.33 to 2
   EXPECT_THAT(columns(400, 33, 4), testing::ElementsAre(0));
+  cv::Mat ones(2, 3, CV_8UC1, cv::Scalar(1));
+  for (const cv::Size& size : {cv::Size(3, 2), cv::Size(6, 4)}) {
+    EXPECT_EQ(cv::countNonZero(ScaledMask(ones, size) != 255), 0);
+  }
 }
 
 TEST_F(ImageMasksTest, BelongToImagesByTheirNames) {

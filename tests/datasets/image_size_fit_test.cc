@@ -102,7 +102,7 @@ TEST_F(ImageSizeFitTest, StoredCalibrationCanBeGivenAgain) {
   settings.max_width = 32;
   const Calibration reduced = ResolveCalibration(settings, "", &index);
   EXPECT_EQ(reduced.camera.width, 32);
-  const Calibration stored = StoredCalibration(index, reduced);
+  const Calibration stored = StoredCalibration(reduced, index.reduced_from);
   EXPECT_EQ(FormatCameraFile(stored, "").find("60 61 30 24 64 48"), 0u);
   for (const std::optional<int>& width : {std::optional<int>(), std::optional<int>(32)}) {
     SequenceIndex again = OpenSequence(Folder());
