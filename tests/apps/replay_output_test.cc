@@ -149,8 +149,8 @@ TEST_F(FusionOfManyImagesTest, ThatIsInterruptedIsNoError) {
 TEST_F(FusionOfManyImagesTest, ThatIsInterruptedNamesTheExportsThatAreLeft) {
   ASSERT_EQ(mkfifo(Path("pipe").c_str(), 0600), 0);
   const std::string ply = "ply=" + Path("cloud.ply"), tum = "tum=" + Path("poses.txt");
-  CommandProcess replay({"replay", Path("still"), "--quiet", "--json", "--output", Path("out"),
-                         "--export", ply, "--export", tum},
+  CommandProcess replay({"replay", Path("still"), "--json", "--output", Path("out"), "--export",
+                         ply, "--export", tum},
                         Path("pipe"));
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(fopen(Path("pipe").c_str(), "r"), fclose);
   ASSERT_GT(fcntl(fileno(pipe.get()), F_SETPIPE_SZ, 4096), 0);
