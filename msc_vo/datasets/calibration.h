@@ -37,7 +37,7 @@ struct Calibration {
   /// Horizontal field of view of the undistorted images, degrees, as given; none: the default of
   /// UndistortedCamera().
   std::optional<double> field_of_view = {};
-  DepthSensor depth_sensor = DepthSensor::kAuto;  ///< what measured depth; kAuto: not given
+  DepthSensor depth_sensor = DepthSensor::kAuto;  ///< of the depth images; kAuto: not given
 
   /// Intrinsics and size of the recorded colour images.
   const PinholeCamera& Recorded() const { return distortion.Recorded(camera); }

@@ -63,8 +63,8 @@ class RgbdDecoder {
 
   /// Returns entry i for a copy of the sequence: PNG and JPEG as they are stored, unless the index
   /// says that colour has to be scaled or that depth has other values than 0 for no measurement;
-  /// otherwise pixels. Depth is whole
-  /// where the mask leaves it out. Throws UnreadableImage as Decode() does.
+  /// otherwise pixels. Depth is whole where the mask leaves it out. Throws UnreadableImage as
+  /// Decode() does.
   StoredRgbd ReadForExport(int i) const;
 
   /// Decodes the depth image of entry i only, before registration: CV_16UC1, raw units, or

@@ -11,7 +11,7 @@
 
 namespace msc_vo {
 
-/// Is near the begin of every file that FormatNerfstudio() makes.
+/// Occurs in the first kilobyte of every file that FormatNerfstudio() writes.
 inline constexpr char kNerfstudioMark[] = "\"generator\": \"msc_vo export\"";
 
 /// An image of nerfstudio's transforms.json.
