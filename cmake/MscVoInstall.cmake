@@ -5,8 +5,8 @@ include(CMakePackageConfigHelpers)
 include(MscVoInstallDocs)
 set(MSC_VO_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/msc_vo)
 
-# Sets `out` to the path from one folder of the installation to another one. Each is absolute or relative
-# to the prefix.
+# Sets `out` to the path from one folder of the installation to another one. Each is absolute or
+# relative to the prefix.
 function(msc_vo_installed_path out from to)
   foreach(folder from to)
     cmake_path(ABSOLUTE_PATH ${folder} BASE_DIRECTORY ${CMAKE_INSTALL_PREFIX} NORMALIZE)

@@ -69,6 +69,8 @@ void RefuseToReplaceInFolder(const std::string& folder, const std::string& file,
 
 void RefuseToReplaceInSequence(const SequenceIndex& sequence, const std::string& file,
                                const std::string& mark, std::optional<bool> overwrite) {
+  // Earlier results may have any name but that of the ground truth, which may be a trajectory of
+  // them.
   const bool is_truth = std::filesystem::path(file).filename() == TruthFileName(sequence);
   if (HasMark(file, mark) && !is_truth) return;
   RefuseToOverwriteSequence(sequence, file);

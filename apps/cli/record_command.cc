@@ -92,7 +92,7 @@ Calibration RecordedCalibration(const RgbdDecoder& decoder) {
   constexpr double kUnitsPerMetre = 5000.0;
   Calibration calibration = decoder.calibration();
   if (decoder.index().clipped_depth.is_metric) calibration.depth_scale = kUnitsPerMetre;
-  calibration.depth_sensor = decoder.index().depth_sensor;
+  calibration.depth_sensor = decoder.index().GivenDepthSensor();
   return calibration;
 }
 

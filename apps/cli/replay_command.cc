@@ -316,7 +316,8 @@ int Replay(const ReplayArguments& given) {
   }
   std::vector<RunExport> exports;
   const int exit_code = Run(arguments, configuration, resumed ? &*resumed : nullptr, &exports);
-  return WriteExports(exports) || exit_code != kExitSuccess ? exit_code : kExitError;
+  const bool are_exported = WriteExports(exports);
+  return exit_code == kExitSuccess && !are_exported ? kExitError : exit_code;
 }
 
 }  // namespace

@@ -108,7 +108,7 @@ RgbdDecoder OpenDecoder(const SequenceArguments& arguments, const Configuration&
 
 void UseDepthSensorOf(const SequenceIndex& index, OdometryOptions* options) {
   DepthSensor& sensor = options->features.depth_sensor;
-  if (sensor == DepthSensor::kAuto) sensor = index.depth_sensor;
+  if (sensor == DepthSensor::kAuto) sensor = index.GivenDepthSensor();
 }
 
 std::string SequenceName(const std::string& directory) {

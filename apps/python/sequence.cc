@@ -125,7 +125,7 @@ void BindSensors(SequenceClass* sequence) {
           "Raw depth units per metre.")
       .def_property_readonly(
           "depth_sensor",
-          [](const RgbdDecoder& self) { return ToString(self.index().depth_sensor); },
+          [](const RgbdDecoder& self) { return ToString(self.index().GivenDepthSensor()); },
           "Name of the depth sensor that the sequence gives, for the option "
           "features.depth_sensor; 'auto' if it gives none.")
       .def_property_readonly(

@@ -33,6 +33,7 @@ Configuration CameraConfiguration(const Calibration& calibration) {
   Configuration configuration;
   configuration.camera = SettingsOf(calibration);
   configuration.odometry.mapping.readout_time = calibration.readout_time;
+  configuration.odometry.features.depth_sensor = calibration.depth_sensor;
   return configuration;
 }
 
@@ -51,6 +52,8 @@ void ReadCamera(const std::string& path, Configuration* configuration) {
   configuration->camera = read.camera;
   const std::optional<double>& readout_time = read.odometry.mapping.readout_time;
   if (readout_time) configuration->odometry.mapping.readout_time = readout_time;
+  const DepthSensor sensor = read.odometry.features.depth_sensor;
+  if (sensor != DepthSensor::kAuto) configuration->odometry.features.depth_sensor = sensor;
 }
 
 std::string DescribeDifference(const Calibration& calibration, const Calibration& expected) {

@@ -10,14 +10,15 @@
 
 namespace msc_vo {
 
-/// Returns the options that give all values of a calibration: the section `camera`, and
-/// `mapping.readout_time` if the readout time is known. All others have their defaults.
+/// Returns the options that give all values of a calibration: the section `camera`,
+/// `mapping.readout_time` if the readout time is known, and `features.depth_sensor` if the sensor
+/// is given. All others have their defaults.
 Configuration CameraConfiguration(const Calibration& calibration);
 
-/// Reads a camera over that of `configuration`: the section `camera` and `mapping.readout_time` of
-/// a file for ReadConfiguration(), or a file for ReadCameraFile(). The section `camera` is replaced
-/// as a whole; other options of the file are not read. Throws std::runtime_error naming the file,
-/// also if it describes no camera.
+/// Reads a camera over that of `configuration`: the section `camera`, `mapping.readout_time` and
+/// `features.depth_sensor` of a file for ReadConfiguration(), or a file for ReadCameraFile(). The
+/// section `camera` is replaced as a whole; other options of the file are not read. Throws
+/// std::runtime_error naming the file, also if it describes no camera.
 void ReadCamera(const std::string& path, Configuration* configuration);
 
 /// Describes the first value in which two calibrations differ, "camera.fx is 520 instead of 525";

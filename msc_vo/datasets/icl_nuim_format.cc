@@ -38,7 +38,7 @@ bool HasIclNuimAssociations(const std::string& directory) {
     if (line.fields.size() != 4 || !stamp || line.fields[1].rfind("depth", 0) != 0) return false;
     stamps.push_back(*stamp);
   }
-  return AreFrameNumbers(stamps) && CountFrames(stamps) &&
+  return AreFrameNumbers(stamps) && AreFrameCounts(stamps) &&
          MedianInterval(stamps) < kMinMilliseconds && IsDepthFirst(lines);
 }
 

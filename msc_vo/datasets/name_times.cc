@@ -172,7 +172,7 @@ Certainty AreTimes(const std::vector<double>& numbers) {
     const bool is_regular = 2 * CountRegularSteps(numbers) + 1 >= numbers.size();
     return is_regular ? Certainty::kYes : Certainty::kNo;
   }
-  return CountFrames(numbers) ? Certainty::kPossible : Certainty::kYes;
+  return AreFrameCounts(numbers) ? Certainty::kPossible : Certainty::kYes;
 }
 
 // Whether the times do not ascend although a number before them does, such as a counter or the

@@ -62,8 +62,6 @@ struct SequenceIndex {
   std::optional<ImageSize> reduced_from;
   /// Depth shows the view of the colour images, whatever its size.
   bool is_same_view = false;
-  /// What measured depth; kAuto: the source does not tell it.
-  DepthSensor depth_sensor = DepthSensor::kAuto;
   /// The images, if they are in one file; null: every image is a file.
   std::shared_ptr<const ImageContainer> container;
   /// What is left out of the images; null: nothing.
@@ -79,6 +77,11 @@ struct SequenceIndex {
   /// which this names, "ARKit": a reference to compare with, whose errors are not known.
   std::string reference;
   std::vector<std::string> warnings;  ///< for the user, one sentence each
+
+  /// The sensor of the depth images according to `calibration`; kAuto: the source gives none.
+  DepthSensor GivenDepthSensor() const {
+    return calibration ? calibration->depth_sensor : DepthSensor::kAuto;
+  }
 };
 
 /// Returns the names that OpenSequence() accepts as `format`, except "auto".

@@ -179,7 +179,7 @@ ImageSize ImageSizeOf(const SequenceIndex& index, const SequenceEntry& entry, Im
   return {image.cols, image.rows};
 }
 
-// As FirstImageSize(); none if none of the first ten can be read.
+// As FirstImageSize(), but none where that throws.
 std::optional<ImageSize> FindImageSize(const SequenceIndex& index, ImageKind kind) {
   constexpr size_t kMaxTries = 10;
   for (size_t i = 0; i < std::min(index.entries.size(), kMaxTries); ++i) {
@@ -200,7 +200,7 @@ void SetMissingSize(const std::optional<ImageSize>& size, const SequenceIndex& i
     throw std::runtime_error(index.directory +
                              ": give the size of the images, camera.width and camera.height");
   }
-  const ImageSize known = size ? *size : FirstImageSize(index, kind);
+  const ImageSize known = size ? *size : ImageSizeOf(index, index.entries.front(), kind);
   camera->width = known.width;
   camera->height = known.height;
 }

@@ -23,9 +23,9 @@ Calibration ResolveCalibration(const CameraSettings& settings, const std::string
 
 enum class ImageKind { kColor, kDepth };
 
-/// Returns the size of the images of a kind: of the first one that can be read, a damaged one is
-/// left to the run. Throws std::runtime_error naming the first one if that is none of the first
-/// ten.
+/// Returns the size of the images of a kind, from the first one that can be read; damaged ones
+/// before it are left to the run. Throws std::runtime_error, naming the first image, if none of the
+/// first ten can be read.
 ImageSize FirstImageSize(const SequenceIndex& index, ImageKind kind);
 
 }  // namespace msc_vo

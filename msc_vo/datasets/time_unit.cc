@@ -120,7 +120,7 @@ std::optional<double> CountingStep(std::vector<double> numbers) {
   return smallest;
 }
 
-bool CountFrames(const std::vector<double>& numbers) {
+bool AreFrameCounts(const std::vector<double>& numbers) {
   const std::optional<double> step = CountingStep(numbers);
   if (!step) return false;
   return MedianInterval(numbers) < 1e3 * kMinImageInterval ||

@@ -55,9 +55,10 @@ double Overlap(const TimeRange& a, const TimeRange& b);
 /// multiples of it. None if they do not count, or fewer than two differ.
 std::optional<double> CountingStep(std::vector<double> numbers);
 
-/// Tests whether whole numbers count frames: in steps that are too small for milliseconds between
-/// images, or every nth frame from 0 or 1, while a clock has an arbitrary origin.
-bool CountFrames(const std::vector<double>& numbers);
+/// Tests whether whole numbers count frames rather than milliseconds: their median step would be
+/// too short between images (kMinImageInterval), or they count every nth frame from 0 or 1, while a
+/// clock has any origin.
+bool AreFrameCounts(const std::vector<double>& numbers);
 
 /// Tests whether the stamps may be frame numbers: whole numbers with steps of at most 60.
 bool AreFrameNumbers(const std::vector<double>& stamps);

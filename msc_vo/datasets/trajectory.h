@@ -23,8 +23,8 @@ std::vector<TimedPose> ReadTrajectory(const std::string& path, int* num_left_out
 /// Formats poses as a TUM trajectory that other tools can read: fields separated by single spaces,
 /// times with six decimals, ascending and unique (the first pose of a stamp is kept), unit
 /// quaternions with w >= 0. The comment "# not estimated", which other tools skip, precedes each
-/// pose that is not estimated, and "# segment 2, world 0" the first pose of a segment unless both
-/// are 0, or those of `before`, the pose before the first one.
+/// pose that is not estimated, and "# segment 2, world 0" each pose whose segment or world is not
+/// that of the pose before it. `before`: the last pose of the text that this one continues.
 std::string FormatTrajectory(std::vector<TimedPose> poses, const TimedPose& before = {});
 
 /// Writes the result of FormatTrajectory() to a file. Throws std::runtime_error, naming the file,

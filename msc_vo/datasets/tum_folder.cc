@@ -93,15 +93,15 @@ ImageLists ReadLists(const fs::path& folder, std::vector<std::string>* warnings)
   return {ReadImageList(color, warnings), ReadImageList(depth, warnings)};
 }
 
-// Reads the reference that `record` writes, whose first comment says what it is. Other
-// files of this name are ignored.
+// Reads the reference that `record` writes, whose first comment says what it is. Other files of
+// this name are ignored.
 void ReadReferenceFile(const std::string& path, WholeStamps whole, SequenceIndex* index) {
   if (!HasEntry(path)) return;
   const std::vector<TextLine> lines = ReadTextLines(path);
-  const std::string begin = kReferenceComment;
-  if (lines.empty() || lines[0].comment.rfind(begin, 0) != 0) return;
+  const std::string prefix = kReferenceComment;
+  if (lines.empty() || lines[0].comment.rfind(prefix, 0) != 0) return;
   ReadGroundTruthFile(path, whole, index);
-  index->reference = lines[0].comment.substr(begin.size());
+  index->reference = lines[0].comment.substr(prefix.size());
 }
 
 }  // namespace
@@ -146,10 +146,7 @@ void ReadGroundTruthFile(const std::string& path, WholeStamps whole, SequenceInd
 
 void ReadFolderCamera(const std::string& directory, SequenceIndex* index) {
   const std::string path = (fs::path(directory) / "camera.txt").string();
-  if (!HasEntry(path)) return;
-  index->calibration = ReadCameraFile(path);
-  const DepthSensor sensor = index->calibration->depth_sensor;
-  if (sensor != DepthSensor::kAuto) index->depth_sensor = sensor;
+  if (HasEntry(path)) index->calibration = ReadCameraFile(path);
 }
 
 std::string FindFreiburgTruth(const std::string& directory) {

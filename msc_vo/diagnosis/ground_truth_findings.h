@@ -13,9 +13,9 @@
 namespace msc_vo {
 
 /// Compares the motion of the images with the ground truth: frame convention, time offset, scale
-/// (that of depth in `units`) and hand-eye offset. Adds nothing if
-/// there is no ground truth. The scale is not judged unless `is_calibrated`: another error of the
-/// calibration changes lengths, too.
+/// (that of depth in `units`) and hand-eye offset. Adds nothing if there is no ground truth. The
+/// scale is not judged unless `is_calibrated`: another error of the calibration changes lengths,
+/// too.
 void AddGroundTruthMotionFindings(const MotionTrack& track, const std::vector<TimedPose>& truth,
                                   const DepthUnits& units, bool is_calibrated, Findings* findings);
 

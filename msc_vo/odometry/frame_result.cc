@@ -40,6 +40,7 @@ FrameResult RepeatPose(const FrameResult* before) {
 }
 
 void Discard(const FrameResult& before, FrameResult* result) {
+  // A frame that was not tracked keeps its cause.
   if (result->status == TrackingStatus::kTracked) result->cause = LossCause::kNoMatch;
   if (HasImage(result->status)) result->status = TrackingStatus::kLost;
   result->segment = before.segment;

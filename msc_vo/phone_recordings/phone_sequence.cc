@@ -131,11 +131,11 @@ SequenceIndex MakePhoneSequence(PhoneRecording recording, DepthConfidence least)
   Calibration calibration;
   calibration.camera = camera->camera();
   calibration.depth_scale = kMillimetres;
+  calibration.depth_sensor = DepthSensor::kLidar;
   calibration.origin = recording.intrinsics;
   index.calibration = calibration;
   index.container = container;
   index.is_same_view = true;
-  index.depth_sensor = DepthSensor::kLidar;
   DescribePoses(recording, &index);
   return index;
 }

@@ -343,7 +343,7 @@ bool CalibrationEstimator::TakeBack(double readout_sigma) {
   CorrectionGroups wrong = estimate_.is_corrected;
   for (size_t g = 0; g < wrong.size(); ++g) {
     if (!wrong[g] || estimate_.log_odds[g] > 0.0) continue;
-    if (g == kRegistration && IsSettled()) continue;  // depths cannot be measured again
+    if (g == kRegistration && IsSettled()) continue;  // no image is left to measure depths in
     if (IsSignificant(static_cast<CorrectionGroup>(g), estimate_) &&
         estimate_.log_odds[g] > -std::log(kAcceptedOdds)) {
       continue;

@@ -17,8 +17,9 @@ namespace {
 // Width of the images that are kept. Chosen by measurement, see docs/lab/self_calibration.md.
 constexpr double kReducedWidth = 320.0;
 
-// Largest change of depth within half the distance of kept pixels on one surface, as a ratio: that
-// at 60 degrees from the line of sight.
+// Largest change of the depth of one surface within half the distance of kept pixels, as a ratio:
+// that of a plane whose normal is 79 degrees off the line of sight, at a focal length of 0.8 image
+// widths.
 constexpr double kMaxChange = 0.01;
 
 // The image whose pixel (x, y) is that at (scale * x, scale * y).

@@ -22,6 +22,7 @@ Calibration FullCalibration() {
   calibration.distortion.model = LensModel::kFisheye;
   calibration.distortion.k = {0.02, -0.012, 0.006, -0.0015};
   calibration.depth_scale = 1000.0;
+  calibration.depth_sensor = DepthSensor::kLidar;
   calibration.field_of_view = 80.0;
   calibration.readout_time = 0.026;
   DepthCamera depth_camera;
@@ -53,12 +54,12 @@ TEST_F(CameraOptionsTest, ReadsWhatIsWritten) {
   EXPECT_THAT(text, HasSubstr("camera:\n  fx: 166.66666666666666\n"));
   EXPECT_THAT(text, HasSubstr("\n  depth_camera:\n    fx: 200\n"));
   EXPECT_THAT(text, HasSubstr("\nmapping:\n  readout_time: 0.026\n"));
+  EXPECT_THAT(text, HasSubstr("\nfeatures:\n  depth_sensor: lidar\n"));
   EXPECT_EQ(Text(Read(text)), text);
 }
 
 TEST_F(CameraOptionsTest, ReadsTheLinesOfACameraFile) {
-  Calibration calibration = FullCalibration();
-  calibration.depth_camera->inverse_depth_offset = 0.0;  // which such a file cannot give
+  const Calibration calibration = FullCalibration();
   WriteText("camera.txt", "# a comment\n\n" + FormatCameraFile(calibration, "camera"));
   Configuration configuration;
   ReadCamera(Path("camera.txt"), &configuration);
@@ -71,11 +72,13 @@ TEST_F(CameraOptionsTest, ReplacesTheCameraAndNothingElse) {
   before.camera.lens.coefficients[0] = 0.1;
   before.odometry.mode = Mode::kPlVo;
   before.odometry.mapping.readout_time = 0.01;
+  before.odometry.features.depth_sensor = DepthSensor::kStereo;
   const Configuration configuration = Read("mode: pl-vo-depth\ncamera: {fx: 300}\n", before);
   EXPECT_EQ(configuration.camera.fx, 300.0);
   EXPECT_FALSE(configuration.camera.lens.coefficients[0].has_value());
   EXPECT_EQ(configuration.odometry.mode, Mode::kPlVo);
   EXPECT_EQ(configuration.odometry.mapping.readout_time, 0.01);
+  EXPECT_EQ(configuration.odometry.features.depth_sensor, DepthSensor::kStereo);
 }
 
 TEST_F(CameraOptionsTest, RefusesAFileWithoutACamera) {

@@ -86,11 +86,11 @@ TEST(CountingStep, IsSmallestStepIfItDividesAll) {
   EXPECT_EQ(CountingStep({0, 33, 67}), std::nullopt);
 }
 
-TEST(CountFrames, DistinguishesFramesFromMilliseconds) {
-  EXPECT_TRUE(CountFrames({302, 307, 312, 322}));  // a part, every fifth frame
-  EXPECT_TRUE(CountFrames({1, 41, 81}));           // every 40th frame
-  EXPECT_FALSE(CountFrames({1013, 1053, 1093}));   // 25 Hz
-  EXPECT_FALSE(CountFrames({1000, 1033, 1067}));   // 30 Hz
+TEST(AreFrameCounts, DistinguishesFramesFromMilliseconds) {
+  EXPECT_TRUE(AreFrameCounts({302, 307, 312, 322}));  // a part, every fifth frame
+  EXPECT_TRUE(AreFrameCounts({1, 41, 81}));           // every 40th frame
+  EXPECT_FALSE(AreFrameCounts({1013, 1053, 1093}));   // 25 Hz
+  EXPECT_FALSE(AreFrameCounts({1000, 1033, 1067}));   // 30 Hz
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ TEST_F(PhoneFormatsTest, ReadImagesPosesAndCamera) {
     const SequenceIndex index = Open(folder);
     EXPECT_EQ(index.format, format);
     EXPECT_THAT(index.recorder, testing::HasSubstr("iPhone"));
-    EXPECT_EQ(index.depth_sensor, DepthSensor::kLidar);
+    EXPECT_EQ(index.GivenDepthSensor(), DepthSensor::kLidar);
     ASSERT_EQ(index.entries.size(), static_cast<size_t>(kNumRoomImages));
     EXPECT_EQ(index.reference, "ARKit");
     EXPECT_EQ(TruthFileName(index), std::string("reference.txt"));
