@@ -1,7 +1,7 @@
 # Precompiled headers of other libraries, which most source files include. Only targets with the same
 # compiler options can share one, so there is one for each kind of target:
 #   library  position-independent code; the standard library, Eigen, OpenCV's core
-#   program  the same for programs, with CLI11
+#   program  the same for programs
 #   test     the same for tests, with GoogleTest
 # They would hide an include that a header lacks: cmake/check_headers.py looks for these by name, and the
 # preset clang-shared compiles every public header without them.
