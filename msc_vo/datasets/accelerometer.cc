@@ -10,6 +10,7 @@
 
 #include <Eigen/LU>
 
+#include "msc_vo/datasets/stamp_precision.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
@@ -23,7 +24,9 @@ constexpr double kMaxGravityDeviation = 0.2;  // relative; more than any scale e
 
 std::vector<TimedAcceleration> ReadRows(const std::string& path) {
   std::vector<TimedAcceleration> readings;
-  for (const TextLine& line : ReadTextLines(path)) {
+  std::vector<TextLine> lines = ReadTextLines(path);
+  RestoreFractions(0, &lines);
+  for (const TextLine& line : lines) {
     if (line.fields.size() != 4) {
       line.Fail("expected 4 numbers 'time ax ay az', found " + std::to_string(line.fields.size()) +
                 " fields; correct the line");

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <initializer_list>
+#include <utility>
 
 #include "msc_vo/text/text_file.h"
 
@@ -235,8 +236,18 @@ class ColumnAssignment {
     return position_[axis] ? Quantity::kQuaternion : Quantity::kPosition;
   }
 
+  // "x y z w" without other names is a quaternion; OptiTrack's "x y z" of the position follows it.
+  void TakeBareQuaternion(size_t w) {
+    for (size_t i = 0; i < 3; ++i) {
+      if (position_[i] != w - 3 + i || quaternion_[i]) return;
+    }
+    std::swap(position_, quaternion_);
+  }
+
   void AddAxis(const Words& words, size_t axis, const std::string& unit, size_t index) {
     Quantity quantity = QuantityOf(words);
+    num_bare_ = quantity == Quantity::kBare ? num_bare_ + 1 : 0;
+    if (axis == 3 && num_bare_ > 3) TakeBareQuaternion(index);
     if (quantity == Quantity::kBare) quantity = Complete(axis);
     last_ = quantity;
     if (quantity == Quantity::kOther || (quantity == Quantity::kPosition && axis == 3)) return;
@@ -275,6 +286,7 @@ class ColumnAssignment {
   double metres_ = 1.0;
   int rank_ = 0;
   Quantity last_ = Quantity::kOther;
+  int num_bare_ = 0;  // axes without other names since the last one with such
 };
 
 }  // namespace

@@ -29,7 +29,8 @@ namespace {
 double ParseStamp(const TextLine& line, size_t field) {
   const std::optional<double> stamp = ParseNumber(line.fields[field]);
   if (!stamp || !std::isfinite(*stamp)) {
-    line.Fail("'" + line.fields[field] + "' is not a time stamp; correct or remove the line");
+    line.Fail("'" + line.fields[field] +
+              "' is not a time stamp; correct or remove the line, or begin it with #");
   }
   return *stamp;
 }
@@ -47,8 +48,23 @@ void CheckPrecision(const std::vector<TextLine>& lines, const std::vector<size_t
   }
 }
 
+// Corrects the stamps in one of the fields, with a warning, see RestoreFractions().
+void CorrectFractions(size_t field, std::vector<TextLine>* lines,
+                      std::vector<std::string>* warnings) {
+  if (!RestoreFractions(field, lines)) return;
+  warnings->push_back(lines->front().file +
+                      ": behind the point, the stamps have whole nanoseconds without zeros in "
+                      "front; they are read as such");
+}
+
+// The path in a field, which may be quoted or that of another system.
 std::string ResolvePath(const TextLine& line, size_t field) {
-  return (fs::path(line.file).parent_path() / line.fields[field]).string();
+  std::string path = line.fields[field];
+  if (path.size() > 2 && path.front() == '"' && path.back() == '"') {
+    path = path.substr(1, path.size() - 2);
+  }
+  std::replace(path.begin(), path.end(), '\\', '/');
+  return (fs::path(line.file).parent_path() / path).string();
 }
 
 bool NamesDepth(const std::string& path) {
@@ -112,7 +128,8 @@ void CheckAssociation(const TextLine& line) {
 std::vector<ListedImage> ReadImageList(const std::string& path,
                                        std::vector<std::string>* warnings) {
   std::vector<ListedImage> images;
-  const std::vector<TextLine> lines = ReadTextLines(path);
+  std::vector<TextLine> lines = ReadTextLines(path);
+  CorrectFractions(0, &lines, warnings);
   for (const TextLine& line : lines) {
     if (line.fields.size() != 2) {
       line.Fail("expected 2 fields 'time path', found " + std::to_string(line.fields.size()) +
@@ -153,11 +170,12 @@ bool IsDepthFirst(const std::vector<TextLine>& lines) {
 }
 
 ImageLists ReadAssociations(const std::string& path, std::vector<std::string>* warnings) {
-  const std::vector<TextLine> lines = ReadTextLines(path);
+  std::vector<TextLine> lines = ReadTextLines(path);
   if (lines.empty()) {
     throw std::runtime_error(path + ": lists no image; expected 'time colour time depth' rows");
   }
   for (const TextLine& line : lines) CheckAssociation(line);
+  for (const size_t field : {0, 2}) CorrectFractions(field, &lines, warnings);
   CheckPrecision(lines, {0, 2}, warnings);
   const bool depth_first = IsDepthFirst(lines);
   const auto image = [](const TextLine& line, size_t field) {

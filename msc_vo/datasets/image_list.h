@@ -25,14 +25,14 @@ struct ImageLists {
 };
 
 /// Reads "time path" rows, whose paths are relative to the folder of the list, in order of time.
-/// Adds a warning if the rows are in another order or the stamps lost digits.
-/// Throws std::runtime_error naming file and line if a row does not fit or the clock was set back,
-/// see FindClockStep().
+/// Backslashes in paths are read as slashes. Adds a warning if the rows are in another order, or
+/// the stamps lost digits or zeros. Throws std::runtime_error naming file and line if a row does
+/// not fit or the clock was set back, see FindClockStep().
 std::vector<ListedImage> ReadImageList(const std::string& path, std::vector<std::string>* warnings);
 
 /// Reads an association file with "time path time path" rows, colour and depth in either order. The
 /// images of a row are at the same position of both lists, see IsDepthFirst(). Adds a warning if
-/// the stamps lost digits.
+/// the stamps lost digits or zeros.
 /// Throws std::runtime_error naming file, line and fix if a row does not fit or the clock of the
 /// colour images was set back.
 ImageLists ReadAssociations(const std::string& path, std::vector<std::string>* warnings);

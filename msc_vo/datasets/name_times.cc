@@ -11,6 +11,7 @@
 
 #include "msc_vo/datasets/calendar_time.h"
 #include "msc_vo/datasets/median_interval.h"
+#include "msc_vo/datasets/stamp_precision.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -68,21 +69,12 @@ Texts WithDecimals(const Texts& seconds, const Texts& decimals) {
 // are. Others are a whole number of milliseconds, microseconds or nanoseconds, or, behind a point,
 // possibly decimals without zeros at the end; the reading with more regular steps is returned.
 Texts AppendFraction(const Texts& seconds, const Texts& column, bool is_behind_point) {
-  size_t width = 0;
-  bool is_fixed = true;
-  for (const std::string& digits : column) {
-    width = std::max(width, digits.size());
-    is_fixed = is_fixed && digits.size() == column.front().size();
-  }
-  Texts decimals = WithDecimals(seconds, column);
-  constexpr size_t kNanosecondDigits = 9;
-  if (is_fixed || width > kNanosecondDigits) return decimals;
-  width = (width + 2) / 3 * 3;
-  Texts padded;
-  for (const std::string& digits : column) {
-    padded.push_back(std::string(width - digits.size(), '0') + digits);
-  }
-  padded = WithDecimals(seconds, padded);
+  const bool is_fixed = std::all_of(column.begin(), column.end(), [&](const std::string& digits) {
+    return digits.size() == column.front().size();
+  });
+  const Texts decimals = WithDecimals(seconds, column);
+  if (is_fixed) return decimals;
+  const Texts padded = WithDecimals(seconds, PadFractions(column));
   const bool are_decimals =
       is_behind_point && CountRegularSteps(Numbers(decimals)) >= CountRegularSteps(Numbers(padded));
   return are_decimals ? decimals : padded;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "msc_vo/datasets/median_interval.h"
 #include "msc_vo/datasets/stamp_precision.h"
@@ -92,14 +93,57 @@ size_t FirstColumn(const PoseColumns& columns) {
   return std::min({first, columns.time.value_or(first), columns.nanoseconds.value_or(first)});
 }
 
+// The columns of a position before a quaternion w x y z, if they are named as a quaternion x y z w
+// before a position: "x y z w x y z" names both.
+PoseColumns PositionFirst(PoseColumns columns) {
+  const std::array<size_t, 4> q = columns.quaternion;
+  const std::array<size_t, 3> t = columns.position;
+  if (std::array<size_t, 3>{q[0] + 4, q[1] + 4, q[2] + 4} != t || q[3] != q[0] + 3) return columns;
+  columns.position = {q[0], q[1], q[2]};
+  columns.quaternion = {t[0], t[1], t[2], q[3]};
+  return columns;
+}
+
 // The named columns; and moved, if rows have another number of columns: a row may begin with a
 // number that the header does not name, and a header with other words.
 std::vector<PoseColumns> NamedCandidates(const PoseColumns& named, size_t num_fields) {
-  std::vector<PoseColumns> candidates = {named};
+  std::vector<PoseColumns> candidates = {named, PositionFirst(named)};
   if (num_fields + FirstColumn(named) >= named.num_names && num_fields != named.num_names) {
     candidates.push_back(Moved(named, named.num_names, num_fields));
   }
   return candidates;
+}
+
+// The largest deviation from unit length of four neighbouring columns, over all finite rows.
+double QuaternionError(const std::vector<TextLine>& rows, size_t begin) {
+  double worst = 0.0;
+  for (const TextLine& line : rows) {
+    double squared = 0.0;
+    for (size_t column = begin; column < begin + 4; ++column) {
+      const bool exists = column < line.fields.size();
+      const double value = exists ? ParseNumber(line.fields[column]).value_or(HUGE_VAL) : HUGE_VAL;
+      squared += value * value;
+    }
+    if (!std::isnan(squared)) worst = std::max(worst, std::abs(std::sqrt(squared) - 1.0));
+  }
+  return worst;
+}
+
+// Throws if the length of other columns is much nearer to 1 than that of the quaternions. Short
+// vectors beside the scalar of a quaternion have unit length by chance.
+void RefuseOtherQuaternions(const std::vector<TextLine>& rows, const PoseColumns& columns) {
+  constexpr double kRounding = 2e-3;  // of components with three decimals
+  const size_t own = *std::min_element(columns.quaternion.begin(), columns.quaternion.end());
+  const double error = QuaternionError(rows, own);
+  if (error < kRounding) return;
+  for (size_t other = columns.time.value_or(0) + 1; other + 4 <= rows.front().fields.size();
+       ++other) {
+    if (other == own || QuaternionError(rows, other) > 0.1 * error) continue;
+    rows.front().Fail(FormatText(
+        "columns %zu-%zu rather than %zu-%zu have the length of a quaternion; name the columns in "
+        "a header, '# time qx qy qz qw tx ty tz'",
+        other + 1, other + 4, own + 1, own + 4));
+  }
 }
 
 // Columns in the order of a format.
@@ -155,8 +199,8 @@ void CheckStampPrecision(const std::string& path, const std::vector<std::string>
 
 class TableReader {
  public:
-  TableReader(const PoseRows& table, std::optional<TrajectoryFormat> format)
-      : rows_(table.rows), format_(format) {
+  TableReader(PoseRows table, std::optional<TrajectoryFormat> format)
+      : rows_(std::move(table.rows)), format_(format) {
     std::vector<PoseColumns> candidates;
     if (table.named && !format) {
       candidates = NamedCandidates(*table.named, rows_.front().fields.size());
@@ -172,6 +216,8 @@ class TableReader {
     const auto chosen = found == candidates.end() ? candidates.begin() : found;
     is_named_ = static_cast<size_t>(chosen - candidates.begin()) < num_named;
     columns_ = *chosen;
+    if (!is_named_ && !format) RefuseOtherQuaternions(rows_, columns_);
+    if (columns_.time && !columns_.nanoseconds) RestoreFractions(*columns_.time, &rows_);
   }
 
   TrajectoryFile Read() {
@@ -193,9 +239,7 @@ class TableReader {
       if (columns_.time) stamps.push_back(rows_[row].fields[*columns_.time]);
       file.poses.push_back(pose);
     }
-    std::stable_sort(
-        file.poses.begin(), file.poses.end(),
-        [](const TimedPose& a, const TimedPose& b) { return a.timestamp < b.timestamp; });
+    SortByTime(&file.poses);
     CheckStampPrecision(rows_.front().file, stamps, file.poses);
     return file;
   }
@@ -250,7 +294,7 @@ class TableReader {
                    IsScalarFirst(columns_) ? "qw qx qy qz" : "qx qy qz qw", norm));
   }
 
-  const std::vector<TextLine>& rows_;
+  std::vector<TextLine> rows_;
   std::optional<TrajectoryFormat> format_;
   PoseColumns columns_;
   bool is_named_ = false;
@@ -268,6 +312,7 @@ PoseRows ReadPoseRows(const std::string& path, bool any_header) {
   PoseRows table;
   std::istringstream content(ReadText(path));
   int header_end = 0;
+  std::optional<TextLine> nameless;  // the first line of the header that names no columns
   std::string text;
   for (int number = 1; std::getline(content, text); ++number) {
     const std::vector<std::string> fields = SplitFields(text);
@@ -279,11 +324,11 @@ PoseRows ReadPoseRows(const std::string& path, bool any_header) {
     if (columns) table.named = columns;
     if (is_comment) continue;
     header_end = number;
-    if (!columns && !any_header && fields[0][0] != '%') {
-      TextLine{path, number, fields, ""}.Fail(
-          std::string("names no columns of a trajectory; name them as in ") + kTumColumns +
-          ", or begin the line with #");
-    }
+    if (!columns && !nameless && fields[0][0] != '%') nameless = {path, number, fields, ""};
+  }
+  if (nameless && !table.named && !any_header) {
+    nameless->Fail(std::string("names no columns of a trajectory; name them as in ") + kTumColumns +
+                   ", or begin the line with #");
   }
   for (TextLine& line : ReadTextLines(path)) {
     if (line.number > header_end) table.rows.push_back(std::move(line));
@@ -291,13 +336,13 @@ PoseRows ReadPoseRows(const std::string& path, bool any_header) {
   return table;
 }
 
-TrajectoryFile ReadPoseTable(const PoseRows& rows, std::optional<TrajectoryFormat> format) {
+TrajectoryFile ReadPoseTable(PoseRows rows, std::optional<TrajectoryFormat> format) {
   if (rows.rows.empty()) {
     TrajectoryFile file;
     file.format = format.value_or(TrajectoryFormat::kTum);
     return file;
   }
-  return TableReader(rows, format).Read();
+  return TableReader(std::move(rows), format).Read();
 }
 
 }  // namespace msc_vo

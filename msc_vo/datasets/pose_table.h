@@ -25,14 +25,14 @@ struct PoseRows {
 };
 
 /// Reads the rows of a file and its header, which may be a comment. Throws std::runtime_error
-/// naming file and line if the file begins with a line that is neither a row, a comment nor names
-/// columns; with `any_header`, such a line is skipped.
+/// naming file and line if the file begins with lines that are neither rows nor comments, none of
+/// which names columns; with `any_header`, such lines are skipped.
 PoseRows ReadPoseRows(const std::string& path, bool any_header);
 
 /// Reads rows with a position and a quaternion each. The columns are those that are named, or that
 /// of the format, or else those in which all quaternions have unit length: the first eight, or the
 /// next ones after a column with the number of the row. Throws std::runtime_error naming file, line
 /// and fix if a row does not fit.
-TrajectoryFile ReadPoseTable(const PoseRows& rows, std::optional<TrajectoryFormat> format);
+TrajectoryFile ReadPoseTable(PoseRows rows, std::optional<TrajectoryFormat> format);
 
 }  // namespace msc_vo

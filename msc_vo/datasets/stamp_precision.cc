@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "msc_vo/datasets/time_unit.h"
 #include "msc_vo/text/format_text.h"
-#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 
@@ -66,6 +66,41 @@ std::string DescribeLostDigits(const std::vector<std::string>& stamps) {
         stamps.front().c_str(), (std::nextafter(value, HUGE_VALF) - value) / rate);
   }
   return "";
+}
+
+std::vector<std::string> PadFractions(std::vector<std::string> fractions) {
+  constexpr size_t kNanosecondDigits = 9;
+  size_t width = 0;
+  for (const std::string& digits : fractions) width = std::max(width, digits.size());
+  if (width > kNanosecondDigits) return fractions;
+  width = (width + 2) / 3 * 3;
+  for (std::string& digits : fractions) digits.insert(0, width - digits.size(), '0');
+  return fractions;
+}
+
+bool RestoreFractions(size_t field, std::vector<TextLine>* lines) {
+  std::vector<std::string> seconds, fractions;
+  std::vector<double> values, padded_values;
+  for (const TextLine& line : *lines) {
+    if (field >= line.fields.size()) return false;
+    const std::string& stamp = line.fields[field];
+    const size_t point = stamp.find('.');
+    const bool is_decimal = stamp.find_first_not_of("0123456789.") == std::string::npos;
+    if (point == std::string::npos || point + 1 == stamp.size() || !is_decimal) return false;
+    seconds.push_back(stamp.substr(0, point + 1));
+    fractions.push_back(stamp.substr(point + 1));
+    values.push_back(ParseNumber(stamp).value_or(0.0));
+  }
+  fractions = PadFractions(std::move(fractions));
+  for (size_t i = 0; i < seconds.size(); ++i) {
+    padded_values.push_back(ParseNumber(seconds[i] + fractions[i]).value_or(0.0));
+  }
+  const auto ascend = [](const std::vector<double>& stamps) {
+    return std::is_sorted(stamps.begin(), stamps.end());
+  };
+  if (ascend(values) || !ascend(padded_values)) return false;
+  for (size_t i = 0; i < seconds.size(); ++i) (*lines)[i].fields[field] = seconds[i] + fractions[i];
+  return true;
 }
 
 }  // namespace msc_vo

@@ -16,12 +16,6 @@ namespace msc_vo {
 
 namespace {
 
-void SortByTime(std::vector<TimedPose>* poses) {
-  std::stable_sort(poses->begin(), poses->end(), [](const TimedPose& a, const TimedPose& b) {
-    return a.timestamp < b.timestamp;
-  });
-}
-
 // Formats with a fixed number of decimals: "0.1000000000"; never "-0.0000000000".
 std::string Fixed(double value, int decimals) {
   std::string text = FormatText("%.*f", decimals, value);

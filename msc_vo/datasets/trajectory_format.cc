@@ -7,9 +7,11 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "msc_vo/datasets/pose_matrix.h"
 #include "msc_vo/datasets/pose_table.h"
+#include "msc_vo/datasets/stamp_precision.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
 
@@ -21,8 +23,12 @@ constexpr std::array<TrajectoryFormat, 3> kTrajectoryFormats = {
     TrajectoryFormat::kTum, TrajectoryFormat::kKitti, TrajectoryFormat::kEuroc};
 constexpr size_t kRowsFields = 12, kMatrixFields = 16;  // of a 4x4 matrix
 
+// A time stamp stands before the matrix.
+bool HasStamp(const TextLine& line) { return line.fields.size() % 2 == 1; }
+
 bool MayBeMatrix(const TextLine& line) {
-  return line.fields.size() == kRowsFields || line.fields.size() == kMatrixFields;
+  const size_t count = line.fields.size() - (HasStamp(line) ? 1 : 0);
+  return count == kRowsFields || count == kMatrixFields;
 }
 
 // All fields as numbers; none if one of them is not finite.
@@ -39,45 +45,96 @@ std::optional<std::vector<double>> ParseFields(const TextLine& line) {
   return values;
 }
 
-// The pose of a row with 12 or 16 numbers; none if they are not [R t] or [R t; 0 1].
+// The pose of a row with 12 or 16 numbers, behind a time stamp or not; none if they are not [R t]
+// or [R t; 0 1].
 std::optional<Rigid3> PoseOfRow(const std::vector<double>& values) {
+  const double* const numbers = values.data() + values.size() % 2;
+  const int count = static_cast<int>(values.size() - values.size() % 2);
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
-  for (int i = 0; i < static_cast<int>(values.size()); ++i) matrix(i / 4, i % 4) = values[i];
+  for (int i = 0; i < count; ++i) matrix(i / 4, i % 4) = numbers[i];
   if (matrix.row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0)) return std::nullopt;
   return RigidFromMatrix(matrix);
+}
+
+// All fields as numbers; NaN for other text.
+std::vector<double> NumbersIn(const TextLine& line) {
+  std::vector<double> values;
+  for (const std::string& field : line.fields) {
+    values.push_back(ParseNumber(field).value_or(std::nan("")));
+  }
+  return values;
+}
+
+bool AreFinite(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(),
+                     [](double value) { return std::isfinite(value); });
 }
 
 bool HasQuaternion(const std::vector<double>& values, size_t column) {
   return IsUnitQuaternion(Eigen::Map<const Eigen::Vector4d>(values.data() + column));
 }
 
-// Tests whether the first finite row is a rigid transform. A row of this length that is neither
-// that nor has a quaternion is taken for a wrong one.
+// Tests whether the first finite row is a rigid transform. A row of 12 or 16 numbers that is
+// neither that nor has a quaternion is taken for a wrong one.
 bool IsKitti(const std::vector<TextLine>& rows) {
   for (const TextLine& line : rows) {
     if (!MayBeMatrix(line)) return false;
-    std::vector<double> values;
-    for (const std::string& field : line.fields) {
-      values.push_back(ParseNumber(field).value_or(std::nan("")));
-    }
-    const auto is_finite = [](double value) { return std::isfinite(value); };
-    if (!std::all_of(values.begin(), values.end(), is_finite)) continue;
-    return PoseOfRow(values) || !(HasQuaternion(values, 4) || HasQuaternion(values, 5));
+    const std::vector<double> values = NumbersIn(line);
+    if (!AreFinite(values)) continue;
+    if (PoseOfRow(values)) return true;
+    return !HasStamp(line) && !HasQuaternion(values, 4) && !HasQuaternion(values, 5);
   }
-  return !rows.empty();
+  return !rows.empty() && !HasStamp(rows.front());
 }
 
-TrajectoryFile ReadKitti(const std::vector<TextLine>& rows) {
+// Tests whether nine numbers of a row, from `begin` on and in rows of `stride`, are a rotation.
+bool HasRotation(const std::vector<double>& values, size_t begin, size_t stride) {
+  if (begin + 2 * stride + 3 > values.size()) return false;
+  Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+  for (size_t i = 0; i < 3; ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    matrix.row(row).head<3>() = Eigen::Map<const Eigen::RowVector3d>(&values[begin + i * stride]);
+  }
+  return RigidFromMatrix(matrix).has_value();
+}
+
+// Throws if all rows have a rotation matrix: the columns of a quaternion may have unit length in
+// it.
+void RefuseMatrices(const std::vector<TextLine>& rows) {
+  std::vector<std::vector<double>> table;
+  for (const TextLine& line : rows) {
+    const std::vector<double> values = NumbersIn(line);
+    if (AreFinite(values)) table.push_back(values);
+  }
+  if (table.empty()) return;
+  for (size_t begin = 0; begin + 9 <= table.front().size(); ++begin) {
+    for (const size_t stride : {3, 4}) {
+      const bool is_matrix = std::all_of(table.begin(), table.end(), [&](const auto& values) {
+        return HasRotation(values, begin, stride);
+      });
+      if (!is_matrix) continue;
+      rows.front().Fail(FormatText(
+          "column %zu begins a rotation matrix, but the row is not that of a 3x4 or 4x4 matrix "
+          "[R t] with or without a time stamp in front; write it as one, or as 'time tx ty tz qx "
+          "qy qz qw'",
+          begin + 1));
+    }
+  }
+}
+
+TrajectoryFile ReadKitti(std::vector<TextLine> rows) {
   TrajectoryFile file;
   file.format = TrajectoryFormat::kKitti;
-  file.has_stamps = false;
+  file.has_stamps = !rows.empty() && HasStamp(rows.front());
+  if (file.has_stamps) RestoreFractions(0, &rows);
   double row = 0.0;
   for (const TextLine& line : rows) {
-    if (!MayBeMatrix(line)) {
-      line.Fail("expected 12 numbers, the rows of [R t], found " +
-                std::to_string(line.fields.size()) + " fields; correct the line");
+    if (!MayBeMatrix(line) || HasStamp(line) != file.has_stamps) {
+      line.Fail("expected " + std::string(file.has_stamps ? "a time stamp and " : "") +
+                "12 numbers, the rows of [R t], found " + std::to_string(line.fields.size()) +
+                " fields; correct the line");
     }
-    const double stamp = row++;
+    double stamp = row++;
     const auto values = ParseFields(line);
     if (!values) {
       ++file.num_left_out;
@@ -85,10 +142,14 @@ TrajectoryFile ReadKitti(const std::vector<TextLine>& rows) {
     }
     const std::optional<Rigid3> pose = PoseOfRow(*values);
     if (!pose) {
-      line.Fail("columns 1-3, 5-7 and 9-11 are not a rotation matrix; correct or remove the line");
+      line.Fail(std::string(file.has_stamps ? "columns 2-4, 6-8 and 10-12"
+                                            : "columns 1-3, 5-7 and 9-11") +
+                " are not a rotation matrix; correct or remove the line");
     }
+    if (file.has_stamps) stamp = values->front();
     file.poses.push_back({stamp, *pose});
   }
+  SortByTime(&file.poses);
   return file;
 }
 
@@ -150,11 +211,20 @@ std::string TrajectoryFile::DescribeLeftOut() const {
                            : FormatText("%d rows with nan or inf are left out", num_left_out);
 }
 
+void SortByTime(std::vector<TimedPose>* poses) {
+  std::stable_sort(poses->begin(), poses->end(), [](const TimedPose& a, const TimedPose& b) {
+    return a.timestamp < b.timestamp;
+  });
+}
+
 TrajectoryFile ReadTrajectoryFile(const std::string& path, std::optional<TrajectoryFormat> format) {
   if (format == TrajectoryFormat::kKitti) return ReadKitti(ReadTextLines(path));
-  const PoseRows rows = ReadPoseRows(path, format.has_value());
-  if (!format && !rows.named && IsKitti(rows.rows)) return ReadKitti(rows.rows);
-  return ReadPoseTable(rows, format);
+  PoseRows rows = ReadPoseRows(path, format.has_value());
+  if (!format && !rows.named) {
+    if (IsKitti(rows.rows)) return ReadKitti(std::move(rows.rows));
+    RefuseMatrices(rows.rows);
+  }
+  return ReadPoseTable(std::move(rows), format);
 }
 
 void ConvertToSeconds(const std::string& reference_path, const std::string& estimate_path,

@@ -15,8 +15,10 @@ namespace msc_vo {
 /// Formats of trajectory files, the same that the program evo reads. Files whose header names the
 /// columns are kEuroc if the scalar of the quaternion comes first, or else kTum.
 enum class TrajectoryFormat {
-  kTum,    ///< "time tx ty tz qx qy qz qw" in seconds and metres
-  kKitti,  ///< the 12 numbers of the upper rows of a 4x4 matrix, or all 16; no time stamps
+  kTum,  ///< "time tx ty tz qx qy qz qw" in seconds and metres
+  /// The 12 numbers of the upper rows of a 4x4 matrix, or all 16. No time stamps, unless there is a
+  /// number in front.
+  kKitti,
   kEuroc,  ///< comma-separated "nanoseconds, x, y, z, qw, qx, qy, qz"
 };
 
@@ -43,11 +45,15 @@ struct TrajectoryFile {
   std::string DescribeLeftOut() const;
 };
 
+/// Sorts poses by time; those with the same time stay in their order.
+void SortByTime(std::vector<TimedPose>* poses);
+
 /// Reads a trajectory in the given format. Without one, a header decides which columns hold time,
 /// position and quaternion (FindPoseColumns()). Without a header, rows of 12 or 16 numbers with a
 /// rotation matrix are KITTI, comma-separated rows whose stamps are nanoseconds are EuRoC, and all
-/// others TUM, with or without a number in front; further columns are ignored. Throws
-/// std::runtime_error naming file, line and fix if a row does not fit.
+/// others TUM; all with or without a number in front; further columns are ignored. Throws
+/// std::runtime_error naming file, line and fix if a row does not fit, or if there is a rotation
+/// matrix or quaternion in other columns.
 TrajectoryFile ReadTrajectoryFile(const std::string& path,
                                   std::optional<TrajectoryFormat> format = std::nullopt);
 

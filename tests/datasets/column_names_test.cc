@@ -58,6 +58,7 @@ TEST(FindPoseColumns, ReadsNamesOfManyPrograms) {
       {"timestamp,vx,vy,vz,wx,wy,wz,x,y,z,qx,qy,qz,qw", "0 789 10111213"},
       {",timestamp,tx,ty,tz,qx,qy,qz,qw", "1 234 5678"},
       {"frame tx ty tz qx qy qz qw", "0 123 4567"},
+      {"Frame,Time (Seconds),X,Y,Z,W,X,Y,Z", "1 678 2345 seconds"},
       {"x y z qx qy qz qw", "- 012 3456"}};
   for (const auto& [header, columns] : headers) EXPECT_EQ(Describe(header), columns) << header;
 }

@@ -47,5 +47,29 @@ TEST(DescribeLostDigits, NamesSinglePrecision) {
   EXPECT_THAT(DescribeLostDigits(stamps), Names("single precision", "128 s"));
 }
 
+std::vector<std::string> Restored(const std::vector<std::string>& stamps) {
+  std::vector<TextLine> lines;
+  for (const std::string& stamp : stamps) lines.push_back({"file", 1, {"a", stamp}, ""});
+  const bool changed = RestoreFractions(1, &lines);
+  std::vector<std::string> restored;
+  for (const TextLine& line : lines) restored.push_back(line.fields[1]);
+  EXPECT_EQ(changed, restored != stamps);
+  return restored;
+}
+
+TEST(RestoreFractions, AddsZerosIfTheStampsAscendOnlyWithThem) {
+  using Stamps = std::vector<std::string>;
+  EXPECT_EQ(Restored({"7.966666667", "8.0", "8.33333333", "8.100000000"}),
+            (Stamps{"7.966666667", "8.000000000", "8.033333333", "8.100000000"}));
+  EXPECT_EQ(Restored({"1.900", "2.5", "2.40", "2.75"}),
+            (Stamps{"1.900", "2.005", "2.040", "2.075"}));
+  const Stamps others[] = {{"7.9", "8.0", "8.05", "8.1"},          // zeros at the end are missing
+                           {"7.9", "8.5", "8.25", "9.0", "8.75"},  // in no order
+                           {"7.9", "8", "8.33", "8.1"},
+                           {"7.9", "8.5e0", "8.33"},
+                           {"7.9", "8.1234567890", "8.05"}};
+  for (const Stamps& stamps : others) EXPECT_EQ(Restored(stamps), stamps) << stamps[1];
+}
+
 }  // namespace
 }  // namespace msc_vo

@@ -137,6 +137,59 @@ TEST_F(TrajectoryFormatTest, ReadsTablesWithoutTime) {
   EXPECT_EQ(Detect("1.5 1 2 3 0 0 0 1 9 9 9 9\n"), TrajectoryFormat::kTum);
 }
 
+TEST_F(TrajectoryFormatTest, ReadsMatricesBehindTimeStamps) {
+  const std::string row = " 0 -1 0 0.1 1 0 0 0.2 0 0 1 0.3", last = " 0 0 0 1";
+  for (const std::string& end : {std::string("\n"), last + "\n"}) {
+    const TrajectoryFile file = Read("5.5" + row + end + "4.5" + row + end);
+    EXPECT_EQ(file.format, TrajectoryFormat::kKitti);
+    EXPECT_TRUE(file.has_stamps);
+    ASSERT_EQ(file.poses.size(), 2u);
+    EXPECT_EQ(file.poses[0].timestamp, 4.5);  // in order of time
+    EXPECT_EQ(file.poses[1].world_from_cam.translation(), Eigen::Vector3d(0.1, 0.2, 0.3));
+  }
+  EXPECT_THAT(MessageOf([&] { Read("5.5" + row + "\n" + row + "\n"); }),
+              Names("file:2", "time stamp", "12"));
+}
+
+// Identity, in whose rows every other order has columns with the length of a quaternion.
+TEST_F(TrajectoryFormatTest, RefusesMatricesInAnotherOrder) {
+  for (const char* row :
+       {"5 0.1 0.2 0.3 1 0 0 0 1 0 0 0 1\n", "5 1 0 0 0 1 0 0 0 1 0.1 0.2 0.3\n",
+        "5 1 0 0 0 0 1 0 0 0 0 1 0 0.1 0.2 0.3 1\n", "0.1 0.2 0.3 1 0 0 0 1 0 0 0 1\n"}) {
+    EXPECT_THAT(MessageOf([&] { Read(row); }), Names("file:1", "rotation", "[R t]")) << row;
+  }
+}
+
+TEST_F(TrajectoryFormatTest, RefusesQuaternionsInAnotherOrder) {
+  EXPECT_THAT(MessageOf([&] { Read("5 0 0 0.1 0.99498744 0.1 0 0\n5 0 0 0 1 0.2 0 0\n"); }),
+              Names("file:1", "2-5", "5-8", "header"));
+  // A header decides, and so do the lengths if it has two meanings.
+  const TrajectoryFile first = Read("t x y z w x y z\n5 0 0 0.1 0.99498744 0.1 0 0\n");
+  EXPECT_EQ(first.poses.at(0).world_from_cam.translation(), Eigen::Vector3d(0.1, 0, 0));
+  const TrajectoryFile second = Read("t x y z w x y z\n5 7 8 9 1 0 0 0\n");
+  EXPECT_EQ(second.poses.at(0).world_from_cam.translation(), Eigen::Vector3d(7, 8, 9));
+  // Rounded components are no reason to refuse.
+  EXPECT_EQ(Read("5 0 0 0 0.7 0 0 0.7\n").poses.size(), 1u);
+}
+
+TEST_F(TrajectoryFormatTest, SkipsLinesBeforeTheNamesOfColumns) {
+  const TrajectoryFile file = Read(
+      ",,Rotation,Rotation,Rotation,Rotation,Position,Position,Position\n"
+      "Frame,Time (Seconds),X,Y,Z,W,X,Y,Z\n0,5.5,0,0,0,1,0.1,0.2,0.3\n");
+  ASSERT_EQ(file.poses.size(), 1u);
+  EXPECT_EQ(file.poses[0].timestamp, 5.5);
+  EXPECT_EQ(file.poses[0].world_from_cam.translation(), Eigen::Vector3d(0.1, 0.2, 0.3));
+}
+
+// As "%d.%d" writes seconds and nanoseconds.
+TEST_F(TrajectoryFormatTest, RestoresZerosInFrontOfNanoseconds) {
+  const std::string q = " 0 0 0 0 0 0 1\n";
+  const TrajectoryFile file =
+      Read("7.966666667" + q + "8.0" + q + "8.33333333" + q + "8.100000000" + q);
+  ASSERT_EQ(file.poses.size(), 4u);
+  EXPECT_NEAR(file.poses[2].timestamp, 8.033333333, 1e-9);
+}
+
 TEST_F(TrajectoryFormatTest, RefusesRowsThatHeaderAndFormatDoNotExplain) {
   EXPECT_THAT(MessageOf([&] { Read("a,b,c\n1,2,3,4,5,6,7,8\n"); }),
               AllOf(Names("file:1", "time tx ty tz qx qy qz qw"), Not(Names("quaternion"))));
