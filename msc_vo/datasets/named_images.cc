@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "msc_vo/datasets/image_name.h"
+#include "msc_vo/datasets/median_interval.h"
 #include "msc_vo/datasets/name_times.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
@@ -137,9 +138,11 @@ void WarnAboutUnit(const NameTimes& times, NamedImages* images) {
   if (times.is_calendar) {
     images->warnings.push_back("the names hold dates and times of day, which are read as UTC");
   } else if (times.unit != TimeUnit::kSeconds) {
-    images->warnings.push_back(std::string("the names hold times in ") + ToString(times.unit) +
-                               (times.is_date ? " since 1970" : "") +
-                               ", which are converted to seconds");
+    images->warnings.push_back(
+        std::string("the names hold times in ") + ToString(times.unit) +
+        (times.is_date && times.unit != TimeUnit::kHundredNanoseconds ? " since 1970" : "") +
+        ", which are converted to seconds" +
+        (times.is_date ? "" : DescribeSlowRate(MedianInterval(times.seconds))));
   }
 }
 

@@ -7,11 +7,13 @@
 #include <cmath>
 
 #include "msc_vo/datasets/median_interval.h"
+#include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
 
 namespace {
 
+// The units that intervals tell apart. Ticks of 100 ns are recognised as dates only.
 constexpr TimeUnit kUnits[] = {TimeUnit::kSeconds, TimeUnit::kMilliseconds, TimeUnit::kMicroseconds,
                                TimeUnit::kNanoseconds};
 
@@ -45,6 +47,8 @@ const char* ToString(TimeUnit unit) {
       return "microseconds";
     case TimeUnit::kNanoseconds:
       return "nanoseconds";
+    case TimeUnit::kHundredNanoseconds:
+      return "units of 100 nanoseconds";
   }
   return "unknown";
 }
@@ -59,6 +63,8 @@ double UnitsPerSecond(TimeUnit unit) {
       return 1e6;
     case TimeUnit::kNanoseconds:
       return 1e9;
+    case TimeUnit::kHundredNanoseconds:
+      return 1e7;
   }
   return 1.0;
 }
@@ -72,9 +78,16 @@ TimeRange RangeOf(const std::vector<double>& seconds, TimeUnit unit) {
 std::optional<TimeUnit> UnitOfDate(double stamp) {
   constexpr double kYear2000 = 946684800.0;   // seconds since 1970
   constexpr double kYear2100 = 4102444800.0;  // seconds since 1970
+  constexpr double kYear1 = -62135596800.0, kYear1601 = -11644473600.0;
+  const auto is_date = [&](TimeUnit unit, double epoch) {
+    const double seconds = stamp / UnitsPerSecond(unit) + epoch;
+    return seconds >= kYear2000 && seconds < kYear2100;
+  };
   for (const TimeUnit unit : kUnits) {
-    const double seconds = stamp / UnitsPerSecond(unit);
-    if (seconds >= kYear2000 && seconds < kYear2100) return unit;
+    if (is_date(unit, 0.0)) return unit;
+  }
+  for (const double epoch : {kYear1, kYear1601}) {
+    if (is_date(TimeUnit::kHundredNanoseconds, epoch)) return TimeUnit::kHundredNanoseconds;
   }
   return std::nullopt;
 }
@@ -98,6 +111,15 @@ TimeUnit GuessTimeUnit(const std::vector<double>& stamps, const std::optional<Ti
     if (is_plausible && overlap > 0.5 && overlap > overlap_in(best)) best = unit;
   }
   return best;
+}
+
+std::string DescribeSlowRate(double interval) {
+  constexpr double kLongInterval = 0.2;  // seconds
+  if (interval <= kLongInterval) return "";
+  return FormatText(
+      ", %.1f images per second; if there were more, the unit is another one: write the times in "
+      "seconds",
+      1.0 / interval);
 }
 
 double Overlap(const TimeRange& a, const TimeRange& b) {

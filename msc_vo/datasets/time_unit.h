@@ -4,12 +4,19 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace msc_vo {
 
 /// Units of the time stamps of recordings.
-enum class TimeUnit { kSeconds, kMilliseconds, kMicroseconds, kNanoseconds };
+enum class TimeUnit {
+  kSeconds,
+  kMilliseconds,
+  kMicroseconds,
+  kNanoseconds,
+  kHundredNanoseconds,  ///< ticks of Windows since 1601 and of .NET since the year 1
+};
 
 /// Returns the name of the unit in the plural, "seconds".
 const char* ToString(TimeUnit unit);
@@ -27,8 +34,8 @@ struct TimeRange {
 /// none.
 TimeRange RangeOf(const std::vector<double>& seconds, TimeUnit unit);
 
-/// Returns the unit in which the stamp is a date of this century, in time since 1970; none if there
-/// is no such unit.
+/// Returns the unit in which the stamp is a date of this century, in time since 1970 or since the
+/// epoch of the unit; none if there is no such unit.
 std::optional<TimeUnit> UnitOfDate(double stamp);
 
 /// Smallest interval of the images of an RGB-D camera, seconds.
@@ -47,6 +54,10 @@ constexpr double kMaxPoseInterval = 3600.0;
 TimeUnit GuessTimeUnit(const std::vector<double>& stamps,
                        const std::optional<TimeRange>& reference = std::nullopt,
                        double max_interval = kMaxPoseInterval);
+
+/// Describes a doubt about the unit of the stamps of images whose median interval it makes longer
+/// than 0.2 s: ", 3.0 images per second; ..."; empty if there is none.
+std::string DescribeSlowRate(double interval);
 
 /// Returns the intersection over union of two time ranges, 0..1.
 double Overlap(const TimeRange& a, const TimeRange& b);

@@ -26,6 +26,19 @@ TEST(GuessTimeUnit, RecognisesDates) {
   EXPECT_EQ(GuessTimeUnit({1305031102175304000.0}), TimeUnit::kNanoseconds);
 }
 
+// Of Windows since 1601, and of .NET since the year 1.
+TEST(GuessTimeUnit, RecognisesDatesInTicks) {
+  for (const double start : {132697151032386740.0, 637400000000000000.0}) {
+    EXPECT_EQ(GuessTimeUnit(Stamps(start, 333333)), TimeUnit::kHundredNanoseconds);
+  }
+  EXPECT_EQ(UnitsPerSecond(TimeUnit::kHundredNanoseconds), 1e7);
+}
+
+TEST(DescribeSlowRate, DoubtsLongIntervals) {
+  EXPECT_NE(DescribeSlowRate(0.333), "");
+  EXPECT_EQ(DescribeSlowRate(0.1), "");
+}
+
 TEST(GuessTimeUnit, RecognisesIntervalsBetweenImages) {
   EXPECT_EQ(GuessTimeUnit(Stamps(0, 1)), TimeUnit::kSeconds);
   EXPECT_EQ(GuessTimeUnit(Stamps(0, 33)), TimeUnit::kMilliseconds);
