@@ -83,7 +83,7 @@ std::string GuessCameraPreset(const std::string& directory) {
   for (const char digit : {'1', '2', '3'}) {
     if (name.find(std::string("freiburg") + digit) != std::string::npos ||
         (name.rfind(std::string("fr") + digit, 0) == 0 &&
-         (name.size() == 3 || !std::isdigit(static_cast<unsigned char>(name[3]))))) {
+         (name.size() == 3 || !std::isalnum(static_cast<unsigned char>(name[3]))))) {
       return std::string("tum-fr") + digit;
     }
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <set>
 
 #include "msc_vo/datasets/image_name.h"
 #include "msc_vo/text/files.h"
@@ -23,6 +24,24 @@ bool HasImageExtension(const fs::path& path) {
                                          ".bmp", ".tiff", ".tif",  ".exr", ".webp"};
   return std::find(std::begin(kExtensions), std::end(kExtensions), extension) !=
          std::end(kExtensions);
+}
+
+bool IsJpeg(const fs::path& path) {
+  const std::string extension = Lowercase(path.extension().string());
+  return extension == ".jpg" || extension == ".jpeg";
+}
+
+// Removes JPEG files beside a file of another format with the same stem.
+void RemoveJpegCopies(std::vector<std::string>* paths) {
+  const auto stem_of = [](const fs::path& path) { return path.stem().string(); };
+  std::set<std::string> stems;
+  for (const std::string& path : *paths) {
+    if (!IsJpeg(path)) stems.insert(stem_of(path));
+  }
+  const auto is_copy = [&](const std::string& path) {
+    return IsJpeg(path) && stems.count(stem_of(path)) > 0;
+  };
+  paths->erase(std::remove_if(paths->begin(), paths->end(), is_copy), paths->end());
 }
 
 bool StartsWith(const std::string& text, const std::string& prefix) {
@@ -45,6 +64,7 @@ std::vector<std::string> ListImages(const std::string& folder, const std::string
     if (stem.empty() || stem[0] == '.' || !HasImageExtension(path) || IsFolder(path)) continue;
     if (StartsWith(stem, prefix) && EndsWith(stem, suffix)) paths.push_back(path);
   }
+  RemoveJpegCopies(&paths);
   std::sort(paths.begin(), paths.end(), NaturalLess);
   return paths;
 }

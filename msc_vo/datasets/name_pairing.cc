@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <stdexcept>
+#include <tuple>
 
 #include "msc_vo/datasets/image_list.h"
 #include "msc_vo/datasets/image_pairing.h"
@@ -55,6 +56,24 @@ void CheckNumberOffset(const NamedImages& color, const NamedImages& depth, Seque
                  static_cast<long long>(std::abs(offset)), offset > 0 ? "higher" : "lower"));
 }
 
+// Warns if both streams count without a gap from the same number, to different ends: the partners
+// of missing images would have other numbers.
+void CheckCounters(const NamedImages& color, const NamedImages& depth, SequenceIndex* index) {
+  const auto range_of = [](const NamedImages& images) {
+    const auto [first, last] = std::minmax_element(images.numbers.begin(), images.numbers.end());
+    const bool has_gap = *last - *first + 1 != static_cast<int64_t>(images.numbers.size());
+    return std::tuple(*first, *last, has_gap);
+  };
+  const auto [color_first, color_last, color_gap] = range_of(color);
+  const auto [depth_first, depth_last, depth_gap] = range_of(depth);
+  if (color_gap || depth_gap || color_first != depth_first || color_last == depth_last) return;
+  index->warnings.push_back(FormatText(
+      "%zu colour images and %zu depth images are numbered without a gap; images with the same "
+      "number are paired, which is wrong if each stream counts its own images: write "
+      "associations.txt then",
+      color.numbers.size(), depth.numbers.size()));
+}
+
 // Adds the pair of two images, at the time that either name holds.
 void AddPair(const NamedImages& color, size_t i, const NamedImages& depth, size_t j,
              SequenceIndex* index) {
@@ -74,6 +93,9 @@ bool PairedByNumber(const NamedImages& color, const NamedImages& depth, Sequence
   }
   const size_t num_pairs = index->entries.size();
   if (num_pairs == 0) return false;
+  index->has_assumed_times =
+      color.certainty != NamedTimes::kCertain && depth.certainty != NamedTimes::kCertain;
+  CheckCounters(color, depth, index);
   const size_t num_unpaired = color.paths.size() - num_pairs + depth.paths.size() - num_pairs;
   if (num_unpaired > 0) {
     index->warnings.push_back(
@@ -125,6 +147,7 @@ void PairByPosition(const NamedImages& color, const NamedImages& depth, Sequence
   for (size_t i = 0; i < color.paths.size(); ++i) {
     index->entries.push_back({i / kDefaultFrameRate, color.paths[i], depth.paths[i], ""});
   }
+  index->has_assumed_times = true;
   index->warnings.push_back(FormatText(
       "the images are paired by the order of their names, at %.0f per second, because the names of "
       "the colour images hold %s, those of the depth images %s",

@@ -3,13 +3,16 @@
 
 // Two folders of images without lists: rgb/ (or color/, colour/, image/, images/) and depth/.
 
+#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "msc_vo/datasets/camera_preset.h"
+#include "msc_vo/datasets/depth_folder.h"
 #include "msc_vo/datasets/image_folder.h"
+#include "msc_vo/datasets/image_times.h"
 #include "msc_vo/datasets/name_pairing.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/datasets/tum_folder.h"
@@ -29,23 +32,31 @@ std::string ColorFolder(const std::string& directory) {
   return "";
 }
 
-std::string DepthFolder(const std::string& directory) {
-  return (fs::path(directory) / "depth").string();
+// Names a file of a folder without images.
+std::string OtherFile(const std::string& folder) {
+  const std::vector<std::string> entries = ListFolder(folder);
+  if (entries.empty()) return "";
+  return "; " + *std::min_element(entries.begin(), entries.end()) +
+         " is no image: write depth as PNG of 16 bits, or as TIFF or EXR of floating-point numbers";
 }
 
 bool Recognises(const std::string& directory) {
-  return !ListImages(ColorFolder(directory)).empty() && IsFolder(DepthFolder(directory));
+  return !ListImages(ColorFolder(directory)).empty() && IsFolder(FindDepth(directory, ""));
 }
 
 SequenceIndex Read(const std::string& directory) {
   SequenceIndex index;
   const std::vector<std::string> color = ListImages(ColorFolder(directory));
-  const std::vector<std::string> depth = ListImages(DepthFolder(directory));
+  const std::vector<std::string> depth = ListImages(FindDepth(directory, "", &index.warnings));
   if (color.empty() || depth.empty()) {
-    throw std::runtime_error(directory + ": needs images in rgb/ and in depth/; found " +
-                             std::to_string(color.size()) + " and " + std::to_string(depth.size()));
+    throw std::runtime_error(
+        directory + ": needs images in rgb/ and in depth/; found " + std::to_string(color.size()) +
+        " and " + std::to_string(depth.size()) +
+        OtherFile(color.empty() ? ColorFolder(directory) : FindDepth(directory, "")));
   }
   PairByName(color, depth, &index);
+  OrderEntries(&index);
+  AdoptTimesOfFile(directory, &index);
   ReadTumGroundTruth(directory, WholeStamps::kFrameNumbers, &index);
   ReadFolderCamera(directory, &index);
   index.preset = GuessCameraPreset(directory);

@@ -73,6 +73,13 @@ SequenceIndex Read(const std::string& directory) {
              &index);
   index.scale_color = true;
   ReadPoseFiles(PosePath, &index);
+  if (index.ground_truth.empty() && IsFolder((folder / "pose").string()) &&
+      !ListFolder((folder / "pose").string()).empty() && !index.entries.empty()) {
+    index.warnings.push_back(
+        "there is no ground truth, because pose/ has no valid pose with the "
+        "name of a colour image, such as " +
+        PosePath(index.entries.front()));
+  }
   ReadIntrinsics(folder, &index);
   return index;
 }

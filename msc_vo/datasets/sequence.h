@@ -52,6 +52,7 @@ struct SequenceIndex {
   std::vector<SequenceEntry> entries;  ///< in order of time, stamps unique
   size_t num_listed = 0;  ///< images that the source names, of the stream with fewer of them
   TimeUnit stamp_unit = TimeUnit::kSeconds;  ///< original unit of the image stamps
+  bool has_assumed_times = false;  ///< no source gives times; they follow from an assumed rate
   /// Calibration file of the folder; for images of the size of depth.
   std::optional<Calibration> calibration;
   std::string preset;          ///< camera preset guessed from the layout or the name; may be empty

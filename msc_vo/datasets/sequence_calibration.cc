@@ -13,6 +13,7 @@
 #include "msc_vo/datasets/camera_preset.h"
 #include "msc_vo/datasets/image_container.h"
 #include "msc_vo/datasets/image_size_fit.h"
+#include "msc_vo/datasets/tum_folder.h"
 #include "msc_vo/image_files/image_file.h"
 
 namespace msc_vo {
@@ -133,9 +134,11 @@ bool IsComplete(const CameraSettings& settings) {
       index.container || index.camera
           ? ""
           : "  add " + index.directory + "/camera.txt with one line " + kCameraFileFormat + "\n";
+  std::string reasons;
+  for (const std::string& warning : index.warnings) reasons += "\n" + warning;
   throw std::runtime_error(index.directory + ": the camera is not known. Do one of:\n" + file +
                            "  give --config FILE with the camera's calibration\n" +
-                           "  give --camera with one of:" + names);
+                           "  give --camera with one of:" + names + reasons);
 }
 
 // The preset that the folder suggests, without readout time.
@@ -166,7 +169,14 @@ Calibration BaseCalibration(const CameraSettings& settings, const std::string& p
   }
   if (!preset.empty()) return FindCameraPreset(preset).calibration;
   if (index->preset.empty()) FailWithoutCalibration(*index);
-  return GuessedPreset(index->preset);
+  const Calibration guess = GuessedPreset(index->preset);
+  if (guess.camera.fy < 0.0 && FindFreiburgTruth(index->directory).empty()) {
+    index->warnings.push_back("the images are taken for mirrored ones of " + index->preset +
+                              " with fy < 0, because their associations name depth first and "
+                              "frame numbers; if they are not, the world is mirrored: add "
+                              "camera.txt or give --camera-file");
+  }
+  return guess;
 }
 
 ImageSize ImageSizeOf(const SequenceIndex& index, const SequenceEntry& entry, ImageKind kind) {

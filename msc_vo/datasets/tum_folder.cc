@@ -3,6 +3,7 @@
 
 #include "msc_vo/datasets/tum_folder.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
@@ -11,13 +12,16 @@
 #include <vector>
 
 #include "msc_vo/datasets/camera_file.h"
+#include "msc_vo/datasets/depth_folder.h"
 #include "msc_vo/datasets/image_list.h"
 #include "msc_vo/datasets/image_pairing.h"
+#include "msc_vo/datasets/image_times.h"
 #include "msc_vo/datasets/median_interval.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/datasets/time_unit.h"
 #include "msc_vo/datasets/trajectory_format.h"
 #include "msc_vo/text/files.h"
+#include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -47,7 +51,10 @@ double StampsPerSecond(const std::string& name, const std::vector<double>& stamp
     const double overlap = overlap_at(kDefaultFrameRate);
     // Ground truth of a whole recording overlaps little with the images of a part.
     const bool is_of_more = overlap > 0.0 && MedianInterval(stamps) < 1e3 * kMinImageInterval;
-    if (is_of_more || overlap >= overlap_at(UnitsPerSecond(unit))) return kDefaultFrameRate;
+    if (is_of_more || overlap >= overlap_at(UnitsPerSecond(unit))) {
+      if (!images) index->has_assumed_times = true;
+      return kDefaultFrameRate;
+    }
   }
   if (!images) index->stamp_unit = unit;
   if (!images && unit == TimeUnit::kSeconds && AreFrameNumbers(stamps)) {
@@ -56,15 +63,18 @@ double StampsPerSecond(const std::string& name, const std::vector<double>& stamp
                               "are frame numbers, use --format icl-nuim (30 frames per second)");
   }
   if (unit != TimeUnit::kSeconds) {
+    const bool is_certain = images || UnitOfDate(stamps.front()) == unit;
+    const double interval = MedianInterval(stamps) / UnitsPerSecond(unit);
     index->warnings.push_back(name + ": the stamps are " + ToString(unit) +
-                              " and are converted to seconds");
+                              " and are converted to seconds" +
+                              (is_certain ? "" : DescribeSlowRate(interval)));
   }
   return UnitsPerSecond(unit);
 }
 
-// Converts the stamps of the items to seconds.
+// Converts the stamps of the items to seconds; returns whether they were frame numbers.
 template <typename Item>
-void ToSeconds(const std::string& name, double Item::*stamp, WholeStamps whole,
+bool ToSeconds(const std::string& name, double Item::*stamp, WholeStamps whole,
                const std::optional<TimeRange>& images, std::vector<Item>* items,
                SequenceIndex* index) {
   constexpr double kMaxInterval =
@@ -72,6 +82,7 @@ void ToSeconds(const std::string& name, double Item::*stamp, WholeStamps whole,
   const double rate =
       StampsPerSecond(name, StampsOf(*items, stamp), whole, images, kMaxInterval, index);
   for (Item& item : *items) item.*stamp /= rate;
+  return rate == kDefaultFrameRate;
 }
 
 void ToSeconds(const std::string& color_name, const std::string& depth_name, WholeStamps whole,
@@ -82,15 +93,28 @@ void ToSeconds(const std::string& color_name, const std::string& depth_name, Who
 }
 
 ImageLists ReadLists(const fs::path& folder, std::vector<std::string>* warnings) {
-  const std::string color = (folder / "rgb.txt").string();
-  const std::string depth = (folder / "depth.txt").string();
-  for (const std::string& path : {color, depth}) {
-    if (HasEntry(path)) continue;
-    throw std::runtime_error(path +
+  const std::string color = FindColorList(folder.string());
+  const std::string depth = FindDepth(folder.string(), ".txt", warnings);
+  if (color.empty() || depth.empty()) {
+    throw std::runtime_error((folder / (color.empty() ? "rgb.txt" : "depth.txt")).string() +
                              ": does not exist; a TUM folder needs rgb.txt and depth.txt (or "
                              "associations.txt). --format rgb-depth pairs rgb/ and depth/ by name");
   }
   return {ReadImageList(color, warnings), ReadImageList(depth, warnings)};
+}
+
+// Warns if an association file has far fewer rows than the lists beside it.
+void CheckAssociated(const std::string& directory, const std::string& name, size_t num_rows,
+                     SequenceIndex* index) {
+  constexpr double kUsual = 0.9;  // ratio; some images have no partner
+  const std::string color = FindColorList(directory);
+  const std::string depth = FindDepth(directory, ".txt", nullptr);
+  if (color.empty() || depth.empty()) return;
+  const size_t num_listed = std::min(ReadTextLines(color).size(), ReadTextLines(depth).size());
+  if (static_cast<double>(num_rows) >= kUsual * static_cast<double>(num_listed)) return;
+  index->warnings.push_back(name + FormatText(": has %zu rows, but the lists beside it have %zu "
+                                              "images; remove the file to use all of them",
+                                              num_rows, num_listed));
 }
 
 // Reads the reference that `record` writes, whose first comment says what it is. Other files of
@@ -111,6 +135,7 @@ void ReadTumEntries(const std::string& directory, WholeStamps whole, SequenceInd
   if (!associations.empty()) {
     ImageLists images = ReadAssociations(associations, &index->warnings);
     const std::string name = fs::path(associations).filename().string();
+    CheckAssociated(directory, name, images.color.size(), index);
     ToSeconds(name + ", colour", name + ", depth", whole, &images, index);
     PairByRow(images, index);
     return;
@@ -138,10 +163,11 @@ void ReadGroundTruthFile(const std::string& path, WholeStamps whole, SequenceInd
   index->ground_truth = std::move(file.poses);
   const std::string name = fs::path(path).filename().string();
   if (file.num_left_out > 0) index->warnings.push_back(name + ": " + file.DescribeLeftOut());
-  if (file.unit) return;
   const TimeRange images =
       RangeOf(StampsOf(index->entries, &SequenceEntry::timestamp), index->stamp_unit);
-  ToSeconds(name, &TimedPose::timestamp, whole, images, &index->ground_truth, index);
+  const bool are_numbers = !file.unit && ToSeconds(name, &TimedPose::timestamp, whole, images,
+                                                   &index->ground_truth, index);
+  are_numbers ? CheckTimesOfTruth(name, index) : AdoptTimesOfTruth(name, index);
 }
 
 void ReadFolderCamera(const std::string& directory, SequenceIndex* index) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "msc_vo/datasets/camera_preset.h"
+#include "msc_vo/datasets/depth_folder.h"
 #include "msc_vo/datasets/image_list.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/datasets/tum_folder.h"
@@ -18,10 +19,9 @@ namespace fs = std::filesystem;
 namespace {
 
 bool Recognises(const std::string& directory) {
-  const auto has = [&](const char* name) {
-    return HasEntry((fs::path(directory) / name).string());
-  };
-  return has("rgb.txt") || has("depth.txt") || !FindAssociations(directory).empty();
+  const bool has_depth = !FindDepth(directory, ".txt").empty();
+  return HasEntry((fs::path(directory) / "rgb.txt").string()) || has_depth ||
+         !FindAssociations(directory).empty();
 }
 
 SequenceIndex Read(const std::string& directory) {

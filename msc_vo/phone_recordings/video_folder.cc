@@ -5,32 +5,27 @@
 // rgb, video; .mp4, .mov, .mkv, .avi) and depth/. times.txt may give the times, a line for each
 // image; camera.txt and groundtruth.txt are as in a TUM folder.
 
-#include <cmath>
 #include <filesystem>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "msc_vo/datasets/camera_preset.h"
+#include "msc_vo/datasets/depth_folder.h"
 #include "msc_vo/datasets/image_folder.h"
+#include "msc_vo/datasets/image_times.h"
 #include "msc_vo/datasets/named_images.h"
-#include "msc_vo/datasets/time_unit.h"
 #include "msc_vo/datasets/tum_folder.h"
 #include "msc_vo/phone_recordings/phone_formats.h"
 #include "msc_vo/phone_recordings/phone_images.h"
 #include "msc_vo/phone_recordings/phone_sequence.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
-#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string DepthFolder(const std::string& directory) {
-  return (fs::path(directory) / "depth").string();
-}
 
 // The video of the folder; empty if there is none.
 std::string FindVideo(const std::string& directory) {
@@ -44,34 +39,24 @@ std::string FindVideo(const std::string& directory) {
 }
 
 bool IsVideoFolder(const std::string& directory) {
-  return IsFolder(DepthFolder(directory)) && !FindVideo(directory).empty();
+  return IsFolder(FindDepth(directory, "")) && !FindVideo(directory).empty();
 }
 
-// The first number of each line, in seconds.
 std::vector<double> ReadTimes(const std::string& path, size_t num_images) {
-  std::vector<double> times;
-  for (const TextLine& line : ReadTextLines(path)) {
-    const std::optional<double> time = ParseNumber(line.fields.front());
-    if (!time || !std::isfinite(*time))
-      line.Fail("'" + line.fields.front() + "' is no time; correct the line");
-    if (!times.empty() && *time <= times.back()) line.Fail("the times must ascend; correct them");
-    times.push_back(*time);
-  }
+  std::vector<double> times = ReadTimesFile(path);
   if (times.size() != num_images) {
     throw std::runtime_error(path + FormatText(": has %zu times for %zu images; write one line for "
                                                "each image of the video",
                                                times.size(), num_images));
   }
-  const double rate = UnitsPerSecond(GuessTimeUnit(times));
-  for (double& time : times) time /= rate;
   CheckIntervals(times, path);
   return times;
 }
 
 std::vector<double> FindTimes(const std::string& directory, const VideoImages& video,
                               const std::vector<std::string>& depth, SequenceIndex* index) {
-  const std::string path = (fs::path(directory) / "times.txt").string();
-  if (HasEntry(path)) return ReadTimes(path, depth.size());
+  const std::string path = FindTimesFile(directory);
+  if (!path.empty()) return ReadTimes(path, depth.size());
   const NamedImages names = ReadImageNames(depth);
   if (names.certainty == NamedTimes::kCertain && names.times.size() == depth.size()) {
     return names.times;
@@ -85,14 +70,16 @@ std::vector<double> FindTimes(const std::string& directory, const VideoImages& v
       FormatText("the times of the images follow from the frame rate of the video, %g per second; "
                  "times.txt may give them",
                  rate));
+  index->has_assumed_times = true;
   std::vector<double> times;
   for (size_t i = 0; i < depth.size(); ++i) times.push_back(static_cast<double>(i) / rate);
   return times;
 }
 
 SequenceIndex ReadVideoFolder(const std::string& directory, const PhoneOptions& options) {
+  SequenceIndex index;
   const std::string path = FindVideo(directory);
-  const std::vector<std::string> depth = ListImages(DepthFolder(directory));
+  const std::vector<std::string> depth = ListImages(FindDepth(directory, "", &index.warnings));
   if (path.empty() || depth.empty()) {
     throw std::runtime_error(directory +
                              ": needs a video, such as color.mp4, and a depth image for each of "
@@ -106,7 +93,6 @@ SequenceIndex ReadVideoFolder(const std::string& directory, const PhoneOptions& 
                                                "image: remove those without a partner",
                                                num_images, depth.size()));
   }
-  SequenceIndex index;
   index.num_listed = depth.size();
   const std::vector<double> times = FindTimes(directory, *video, depth, &index);
   std::vector<PhoneImage> images;

@@ -30,6 +30,7 @@ TEST(GuessCameraPreset, RecognisesTumFolders) {
   EXPECT_EQ(GuessCameraPreset("/data/fr1_desk"), "tum-fr1");
   EXPECT_EQ(GuessCameraPreset("/data/freiburg1/mine"), "");
   EXPECT_EQ(GuessCameraPreset("/data/fr10_lab"), "");
+  EXPECT_EQ(GuessCameraPreset("/data/fr3nch_flat"), "");
 }
 
 TEST(GuessCameraPreset, RecognisesTheFolderBehindADot) {

@@ -23,12 +23,20 @@ TEST_F(ImageFolderTest, ListsOnlyImagesInNaturalOrder) {
   EXPECT_TRUE(ListImages(Path("nowhere")).empty());
 }
 
+TEST_F(ImageFolderTest, LeavesOutJpegCopies) {
+  for (const char* name : {"1.png", "1.jpg", "2.jpeg", "2.tiff", "3.jpg"}) WriteText(name, "");
+  EXPECT_THAT(ListImages(Folder()),
+              testing::ElementsAre(Path("1.png"), Path("2.tiff"), Path("3.jpg")));
+}
+
 TEST_F(ImageFolderTest, ListsAllFormatsThatCanBeRead) {
   std::vector<std::string> paths;
+  int number = 0;
   for (const char* ending :
        {"bmp", "exr", "jpeg", "jpg", "pgm", "png", "pnm", "ppm", "tif", "tiff", "webp"}) {
-    paths.push_back(Path(std::string("1.") + ending));
-    WriteText(std::string("1.") + ending, "");
+    const std::string name = std::to_string(++number) + "." + ending;
+    paths.push_back(Path(name));
+    WriteText(name, "");
   }
   EXPECT_THAT(ListImages(Folder()), testing::UnorderedElementsAreArray(paths));
 }

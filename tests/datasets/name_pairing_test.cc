@@ -140,6 +140,17 @@ TEST_F(NamePairingTest, FailsIfFewImagesHaveAPartner) {
   EXPECT_THAT(Error(), Names("10", "30", "40", "partner"));
 }
 
+// Each stream may count its own images.
+TEST_F(NamePairingTest, WarnsOfCountersWithoutAGapThatEndApart) {
+  const auto plain = [](int i) { return std::to_string(i); };
+  WriteColors(0, 20, plain);
+  WriteDepths(0, 17, plain);
+  const auto warns = Contains(Names("20", "17", "associations.txt"));
+  EXPECT_THAT(OpenSequence(Folder()).warnings, warns);
+  std::filesystem::remove(Path("depth/7.png"));  // the missing image has a number
+  EXPECT_THAT(OpenSequence(Folder()).warnings, testing::Not(Contains(Names("associations.txt"))));
+}
+
 TEST_F(NamePairingTest, PlainCountersGiveNoWarning) {
   WriteColors(0, 20, [](int i) { return FormatText("frame-%06d.color", i); });
   WriteDepths(0, 20, [](int i) { return FormatText("frame-%06d.depth", i); });

@@ -153,10 +153,27 @@ TEST_F(SequenceCalibrationTest, CompleteSettingsAreTheOnlySource) {
               Names("--set", "camera.width", "0"));
 }
 
-TEST_F(SequenceCalibrationTest, ErrorListsAlternatives) {
+TEST_F(SequenceCalibrationTest, ErrorListsAlternativesAndReasons) {
   SequenceIndex index = Index();
-  EXPECT_THAT(MessageOf([&] { ResolveCalibration({}, "", &index); }),
-              Names("camera.txt", "--config", "--camera", "tum-fr1"));
+  index.warnings = {"/camera_info gives no calibration"};
+  EXPECT_THAT(
+      MessageOf([&] { ResolveCalibration({}, "", &index); }),
+      Names("camera.txt", "--config", "--camera", "tum-fr1", "/camera_info gives no calibration"));
+}
+
+// Other programs write depth first, too.
+TEST_F(SequenceCalibrationTest, WarnsOfAGuessThatMirrorsTheWorld) {
+  WriteText("associations.txt", "0 depth/0.png 0 rgb/0.png\n1 depth/1.png 1 rgb/1.png\n");
+  WriteColor("rgb/0.png", 640, 480);
+  WriteDepth("depth/0.png", 5000, 640, 480);
+  const auto warnings = [&] {
+    SequenceIndex index = OpenSequence(Folder());
+    EXPECT_EQ(ResolveCalibration({}, "", &index).camera.fy, -480.0);
+    return index.warnings;
+  };
+  EXPECT_THAT(warnings(), testing::Contains(Names("icl-nuim", "mirrored", "camera.txt")));
+  WriteText("office.gt.freiburg", "1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n");
+  EXPECT_THAT(warnings(), testing::Not(testing::Contains(Names("mirrored"))));
 }
 
 TEST_F(SequenceCalibrationTest, KeepsReadoutTimeOfFolder) {

@@ -63,6 +63,54 @@ TEST_F(SequenceTest, ReadsIntrinsicsOf3DMatch) {
   EXPECT_EQ(index.calibration->depth_scale, 1000.0);
 }
 
+TEST_F(SequenceTest, ReadsInfoBesideImagesLikeThoseOfSevenScenes) {
+  WriteText("data/frame-000000.pose.txt", kPose);
+  WriteColor("data/frame-000000.color.png", 16, 12);
+  WriteDepth("data/frame-000000.depth.png");
+  const std::string size = "m_colorWidth = 32\nm_colorHeight = 24\nm_depthShift = 5000\n";
+  const std::string camera = "20 0 15.5 0 0 22 11.5 0 0 0 1 0 0 0 0 1";
+  WriteText("info.txt", size + "m_sensorName = StructureSensor\n");
+  EXPECT_FALSE(OpenSequence(Path("data")).calibration.has_value());
+  for (const char* name : {"info.txt", "data/_info.txt"}) {
+    WriteText(name, size + "m_calibrationColorIntrinsic = " + camera + " \n");
+    const SequenceIndex index = OpenSequence(Path("data"));
+    ASSERT_TRUE(index.calibration.has_value());
+    EXPECT_EQ(index.calibration->depth_scale, 5000.0);
+    EXPECT_TRUE(index.scale_color);
+    // Of 32 x 24 pixels, for depth of 8 x 6.
+    EXPECT_EQ(index.calibration->camera.fx, 5.0);
+    EXPECT_EQ(index.calibration->camera.fy, 5.5);
+    EXPECT_EQ(index.calibration->camera.cx, 3.5);
+    std::filesystem::remove(Path(name));
+  }
+  WriteText("info.txt", size + "m_calibrationColorIntrinsic = 20 x\n");
+  EXPECT_THAT(MessageOf([&] { OpenSequence(Path("data")); }), Names("info.txt:4"));
+}
+
+TEST_F(SequenceTest, SaysThatNoPoseOfScanNetHasTheNameOfAnImage) {
+  WriteColor("color/0.jpg");
+  WriteDepth("depth/0.png");
+  WriteText("pose/000000.txt", kPose);
+  const SequenceIndex index = OpenSequence(Folder());
+  EXPECT_THAT(index.warnings, testing::Contains(Names("ground truth", Path("pose/0.txt"))));
+}
+
+TEST_F(SequenceTest, WarnsOfAnAssociationFileOfFewImages) {
+  std::string color, depth, rows;
+  for (const std::string time : {"0.1", "0.2", "0.3", "0.4", "0.5"}) {
+    color += time + " rgb/" + time + ".png\n";
+    depth += time + " depth/" + time + ".png\n";
+    if (time < "0.3") rows += time + " rgb/" + time + ".png " + time + " depth/" + time + ".png\n";
+  }
+  WriteText("associations.txt", rows);
+  EXPECT_THAT(OpenSequence(Folder()).warnings, testing::IsEmpty());
+  WriteText("rgb.txt", color);
+  WriteText("depth.txt", depth);
+  const SequenceIndex index = OpenSequence(Folder());
+  EXPECT_EQ(index.entries.size(), 2u);
+  EXPECT_THAT(index.warnings, testing::ElementsAre(Names("associations.txt", "2", "5")));
+}
+
 TEST_F(SequenceTest, RefusesToOverwriteItsParts) {
   WriteColor("seq/frame-000000.color.png");
   WriteDepth("seq/frame-000000.depth.png");

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "msc_vo/datasets/depth_folder.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "msc_vo/datasets/image_folder.h"
+#include "msc_vo/text/files.h"
+#include "msc_vo/text/text_file.h"
+
+namespace msc_vo {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Tests for "aligned_depth_to_color", "depth_registered" and the like, but not "depth_unaligned".
+bool IsNamedRegistered(const std::string& name) {
+  const auto has = [&](const char* word) { return name.find(word) != std::string::npos; };
+  return has("depth") && (has("aligned") || has("registered")) && !has("unaligned") &&
+         !has("unregistered") && !has("not");
+}
+
+}  // namespace
+
+std::string FindDepth(const std::string& directory, const std::string& ending,
+                      std::vector<std::string>* warnings) {
+  const std::string plain = (fs::path(directory) / ("depth" + ending)).string();
+  std::vector<std::string> entries = ListFolder(directory);
+  std::sort(entries.begin(), entries.end());
+  const auto registered = std::find_if(entries.begin(), entries.end(), [&](const auto& entry) {
+    const fs::path path = entry;
+    const bool is_kind =
+        ending.empty() ? !ListImages(entry).empty() : path.extension().string() == ending;
+    return is_kind && IsNamedRegistered(Lowercase(path.stem().string()));
+  });
+  if (registered == entries.end()) return HasEntry(plain) ? plain : "";
+  if (warnings != nullptr && HasEntry(plain)) {
+    warnings->push_back(*registered + " is used rather than " + plain +
+                        ", because its name says that depth is registered to colour");
+  }
+  return *registered;
+}
+
+std::string FindColorList(const std::string& directory) {
+  for (const char* name : {"rgb.txt", "color.txt"}) {
+    std::string path = (fs::path(directory) / name).string();
+    if (HasEntry(path)) return path;
+  }
+  return "";
+}
+
+}  // namespace msc_vo

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+// Times of images whose names only number them.
+
+#include "msc_vo/datasets/image_times.h"
+
+#include "tests/support/message_matchers.h"
+#include "tests/support/temporary_folder.h"
+#include <gmock/gmock.h>
+
+#include "msc_vo/text/format_text.h"
+
+namespace msc_vo {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+class ImageTimesTest : public TemporaryFolder {
+ protected:
+  static constexpr int kImages = 6;
+
+  // Opens a folder with numbered images and a pose at each time.
+  SequenceIndex Open(const std::vector<double>& poses) {
+    for (int i = 0; i < kImages; ++i) {
+      WriteColor(FormatText("rgb/%d.png", i));
+      WriteDepth(FormatText("depth/%d.png", i));
+    }
+    std::string truth;
+    for (const double time : poses) truth += FormatText("%.6f 0 0 0 0 0 0 1\n", time);
+    WriteText("groundtruth.txt", truth);
+    return OpenSequence(Folder());
+  }
+  static std::vector<double> Times(double first, double rate, int count = kImages) {
+    std::vector<double> times;
+    for (int i = 0; i < count; ++i) times.push_back(first + i / rate);
+    return times;
+  }
+  static std::vector<double> StampsOf(const SequenceIndex& index) {
+    std::vector<double> stamps;
+    for (const SequenceEntry& entry : index.entries) stamps.push_back(entry.timestamp);
+    return stamps;
+  }
+  std::vector<double> ReadTimes(const std::string& text) {
+    WriteText("t.txt", text);
+    return ReadTimesFile(Path("t.txt"));
+  }
+};
+
+TEST_F(ImageTimesTest, ImagesWithoutTimesHaveThoseOfTheirPoses) {
+  for (const auto& [first, rate] :
+       {std::pair(0.0, 25.0), std::pair(1.0 / 30.0, 30.0), std::pair(1305031102.2, 15.0)}) {
+    const SequenceIndex index = Open(Times(first, rate));
+    EXPECT_THAT(StampsOf(index), testing::Pointwise(testing::DoubleNear(2e-6), Times(first, rate)));
+    EXPECT_THAT(index.warnings, ElementsAre(Names("groundtruth.txt", FormatText("%g", rate))));
+  }
+}
+
+TEST_F(ImageTimesTest, PosesAt30HertzConfirmTheTimes) {
+  EXPECT_THAT(Open(Times(0.0, 30.0)).warnings, IsEmpty());
+}
+
+TEST_F(ImageTimesTest, OtherNumbersOfPosesDoNotTellTheTimes) {
+  const SequenceIndex index = Open(Times(0.0, 25.0, kImages + 1));
+  EXPECT_DOUBLE_EQ(index.entries[1].timestamp, 1.0 / 30.0);
+  EXPECT_THAT(index.warnings, ElementsAre(Names("groundtruth.txt", "7", "6", "times.txt")));
+}
+
+TEST_F(ImageTimesTest, NumbersOfPosesMayBeginElsewhere) {
+  EXPECT_THAT(Open({1, 2, 3, 4, 5, 6}).warnings, ElementsAre(Names("groundtruth.txt", "1 higher")));
+  EXPECT_THAT(Open({0, 1, 2, 3, 4, 5}).warnings, IsEmpty());
+}
+
+TEST_F(ImageTimesTest, TakesTheTimesOfAFile) {
+  for (const char* name : {"timestamps.txt", "times.txt"}) {  // the second one precedes
+    const double rate = name[4] == 's' ? 10.0 : 20.0;
+    std::string text;
+    for (const double time : Times(5.0, rate)) text += FormatText("%.3f\n", time);
+    WriteText(name, text);
+    const SequenceIndex index = Open(Times(5.0, rate));
+    EXPECT_DOUBLE_EQ(index.entries[1].timestamp, 5.0 + 1.0 / rate);
+    EXPECT_THAT(index.warnings, IsEmpty());
+  }
+  WriteText("times.txt", "1\n2\n");
+  EXPECT_THAT(Open(Times(0.0, 30.0)).warnings, ElementsAre(Names("times.txt", "2", "6")));
+}
+
+TEST_F(ImageTimesTest, TimesMayFollowTheNumberOfTheLine) {
+  EXPECT_THAT(ReadTimes("0 5.5\n1 5.6\n2 5.7\n"), ElementsAre(5.5, 5.6, 5.7));
+  EXPECT_THAT(ReadTimes("0.5 0\n0.6 1\n"), ElementsAre(0.5, 0.6));
+  EXPECT_THAT(ReadTimes("5500 a\n5533 b\n"), ElementsAre(5.5, 5.533));
+  EXPECT_THAT(ReadTimes("7.966666667\n8.0\n8.33333333\n8.100000000\n"),
+              ElementsAre(7.966666667, 8.0, 8.033333333, 8.1));
+  EXPECT_THAT(MessageOf([&] { ReadTimes("1\nx\n"); }), Names("t.txt:2", "'x'"));
+  EXPECT_THAT(MessageOf([&] { ReadTimes("1\n1\n"); }), Names("t.txt:2", "ascend"));
+}
+
+}  // namespace
+}  // namespace msc_vo
