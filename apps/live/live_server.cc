@@ -146,10 +146,10 @@ void LiveServer::State::Route(bool only_loopback) {
     Send(page, "text/html; charset=utf-8", token, &response);
   });
   server.Get("/data", [this](const Request& request, Response& response) {
-    const std::string update =
+    const auto update = std::make_shared<const std::string>(
         run->Update(IntParameter(request, "frames", 0), IntParameter(request, "map", -1),
-                    IntParameter(request, "view", -1));
-    Send(std::make_shared<const std::string>(update), "application/json", token, &response);
+                    IntParameter(request, "view", -1)));
+    Send(update, "application/json", token, &response);
   });
   server.Get("/report", [this](const Request&, Response& response) {
     const std::shared_ptr<const std::string> report = run->Report();

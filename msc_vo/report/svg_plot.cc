@@ -15,7 +15,6 @@
 namespace msc_vo {
 namespace {
 
-constexpr double kStripHeight = 8.0;
 // Spacing that one tick label needs along x and along y.
 constexpr double kTickSpacingX = 80.0;
 constexpr double kTickSpacingY = 28.0;
@@ -167,10 +166,9 @@ void SvgPlot::AddAxes(const std::string& x_name, const std::string& y_name) {
 }
 
 void SvgPlot::AppendPath(const std::vector<Eigen::Vector2d>& drawing_points,
-                         const std::string& css_class, bool closed) {
+                         const std::string& css_class) {
   if (drawing_points.empty()) return;
-  inside_ += closed ? "<polygon" : "<polyline";
-  inside_ += " class=\"" + css_class + "\" points=\"";
+  inside_ += "<polyline class=\"" + css_class + "\" points=\"";
   for (const Eigen::Vector2d& p : drawing_points) inside_ += PointText(p) + ' ';
   inside_.back() = '"';
   inside_ += "/>\n";
@@ -201,7 +199,7 @@ std::vector<Eigen::Vector2d> SvgPlot::ThinColumns(
 }
 
 void SvgPlot::AddSeries(const std::vector<Eigen::Vector2d>& points, const std::string& css_class) {
-  AppendPath(ThinColumns(points), css_class, false);
+  AppendPath(ThinColumns(points), css_class);
 }
 
 void SvgPlot::AddPath(const std::vector<Eigen::Vector2d>& points, const std::string& css_class) {
@@ -213,7 +211,7 @@ void SvgPlot::AddPath(const std::vector<Eigen::Vector2d>& points, const std::str
     if (thin.empty() || (last - thin.back()).norm() >= 0.5) thin.push_back(last);
   }
   if (!thin.empty() && thin.back() != last) thin.push_back(last);
-  AppendPath(thin, css_class, false);
+  AppendPath(thin, css_class);
 }
 
 void SvgPlot::AddSegments(const std::vector<LineSegment2>& segments, const std::string& css_class) {

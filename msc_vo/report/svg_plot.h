@@ -96,8 +96,7 @@ class SvgPlot {
   double Right() const;
   double Top() const;
   double Bottom() const;
-  void AppendPath(const std::vector<Eigen::Vector2d>& drawing_points, const std::string& css_class,
-                  bool closed);
+  void AppendPath(const std::vector<Eigen::Vector2d>& drawing_points, const std::string& css_class);
   void AppendText(const Eigen::Vector2d& at, const std::string& css_class, const std::string& text);
   std::vector<Eigen::Vector2d> ThinColumns(const std::vector<Eigen::Vector2d>& points) const;
 
@@ -106,7 +105,7 @@ class SvgPlot {
   PlotRange x_;
   PlotRange y_;
   std::string inside_;   // clipped to the axes
-  std::string outside_;  // labels and strips
+  std::string outside_;  // labels
 };
 
 }  // namespace msc_vo

@@ -14,16 +14,15 @@ namespace msc_vo {
 
 namespace {
 
-// The integer factor, for which averaging is fast, that reduces `size` to at most `max_size`.
+// The integer factor that reduces `size` to at most `max_size`: averaging is fast where both sides
+// of an image are multiples of it.
 int FactorTo(int max_size, int size) { return std::max(1, (size + max_size - 1) / max_size); }
 
 cv::Mat ReducedBy(int factor, const cv::Mat& gray) {
   if (factor == 1) return gray;
   const cv::Size reduced(std::max(1, gray.cols / factor), std::max(1, gray.rows / factor));
-  const cv::Rect covered(0, 0, std::min(gray.cols, reduced.width * factor),
-                         std::min(gray.rows, reduced.height * factor));
   cv::Mat small;
-  cv::resize(gray(covered), small, reduced, 0.0, 0.0, cv::INTER_AREA);
+  cv::resize(gray, small, reduced, 0.0, 0.0, cv::INTER_AREA);
   return small;
 }
 

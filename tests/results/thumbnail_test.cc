@@ -42,6 +42,14 @@ TEST(EncodeThumbnail, HandlesSmallAndOddImages) {
   }
 }
 
+TEST(EncodeThumbnail, ShowsTheWholeImage) {
+  constexpr int kWidth = 848;  // not a multiple of the factor, three
+  cv::Mat gray = cv::Mat::zeros(480, kWidth, CV_8UC1);
+  gray.colRange(kWidth - 2, kWidth) = 255;
+  const cv::Mat image = Decode(EncodeThumbnail(gray));
+  EXPECT_GT(cv::mean(image.col(image.cols - 1))[0], 100.0);
+}
+
 TEST(EncodeMapImage, IsSmallWhateverTheImageShows) {
   for (const cv::Size size : {cv::Size(160, 120), cv::Size(640, 480), cv::Size(480, 640),
                               cv::Size(1280, 720), cv::Size(90, 4000)}) {

@@ -8,9 +8,9 @@ const SESSION_COLORS = ["session-0", "session-1", "session-2"];
 function frustumSegments(camera, depth) {
   const corner =
       (u, v) => [(u - camera.cx) / camera.fx * depth, (v - camera.cy) / camera.fy * depth, depth];
+  const right = camera.width - 0.5, bottom = camera.height - 0.5;  // centres of pixels are integers
   const corners = [
-    corner(0, 0), corner(camera.width, 0), corner(camera.width, camera.height),
-    corner(0, camera.height)
+    corner(-0.5, -0.5), corner(right, -0.5), corner(right, bottom), corner(-0.5, bottom)
   ];
   const ends = [];
   corners.forEach((point, i) => ends.push(0, 0, 0, ...point, ...point, ...corners[(i + 1) % 4]));

@@ -156,12 +156,14 @@ class SceneView {
     if (model.count === 0) return;
     const {fx, fy, cx, cy, width, height} = model.info.camera;
     const scale = Math.min(this.canvas.clientWidth / width, this.canvas.clientHeight / height) || 1;
-    const marginX = (this.canvas.clientWidth / scale - width) / 2;
-    const marginY = (this.canvas.clientHeight / scale - height) / 2;
+    // In pixels of the camera, whose centres are integers.
+    const canvasWidth = this.canvas.clientWidth / scale;
+    const canvasHeight = this.canvas.clientHeight / scale;
+    const left = (width - canvasWidth) / 2 - 0.5, top = (height - canvasHeight) / 2 - 0.5;
     const near = 0.02;
     recorded.projectionMatrix.makePerspective(
-        near * (-marginX - cx) / fx, near * (width + marginX - cx) / fx, near * (cy + marginY) / fy,
-        near * (cy - height - marginY) / fy, near, 1000);
+        near * (left - cx) / fx, near * (left + canvasWidth - cx) / fx, near * (cy - top) / fy,
+        near * (cy - top - canvasHeight) / fy, near, 1000);
     recorded.projectionMatrixInverse.getInverse(recorded.projectionMatrix);
     const flip = new THREE.Matrix4().makeRotationX(Math.PI);  // y up, looking along -z
     recorded.matrix.multiplyMatrices(this.world.matrix, poseMatrix(model, model.current))
