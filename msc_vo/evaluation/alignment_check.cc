@@ -235,14 +235,43 @@ AxesTurn FitAxesTurn(const Poses& reference, const Poses& estimate) {
   return by_positions.error <= by_motion.error / kBetter ? by_positions : by_motion;
 }
 
-std::string DescribeAxes(const AxesTurn& axes, double given, bool estimate_is_own) {
+// `is_reflected`: the positions are mirror images of each other, as those of mirrored images are.
+std::string DescribeAxes(const AxesTurn& axes, double given, bool estimate_is_own,
+                         bool is_reflected) {
   return FormatText(
       "the axes of the reference poses differ from those of the %s by a %s: turned back, the "
       "orientations differ by %.2f degrees instead of %.2f; x must point right, y down and z "
-      "forward in the image",
+      "forward in the image%s",
       estimate_is_own ? "camera" : "estimated poses",
       DescribeTurn(axes.turn.toRotationMatrix()).c_str(), RadiansToDegrees(axes.error),
-      RadiansToDegrees(given));
+      RadiansToDegrees(given), is_reflected ? ", which may not be mirrored" : "");
+}
+
+// Residual of the positions after alignment, square metres (mean).
+double PositionVariance(const Poses& reference, const Poses& estimate) {
+  const Moments m = MomentsOf(reference, estimate, 0, reference.size());
+  return std::max(0.0, m.reference + m.estimate - 2.0 * m.common.sum());
+}
+
+Poses Inverted(Poses poses) {
+  for (Rigid3& pose : poses) pose = pose.Inverse();
+  return poses;
+}
+
+// Says that one trajectory holds the inverse poses, if these agree better in positions and
+// orientations, to `limit` (radians); empty otherwise.
+std::string DescribeInverse(const Poses& reference, const Poses& estimate, bool estimate_is_own,
+                            double limit) {
+  const double max_variance = kBetter * kBetter * PositionVariance(reference, estimate);
+  for (const bool of_reference : {true, false}) {
+    if (estimate_is_own && !of_reference) continue;
+    const Poses& a = of_reference ? Inverted(reference) : reference;
+    const Poses& b = of_reference ? estimate : Inverted(estimate);
+    if (OrientationError(a, b) >= limit || PositionVariance(a, b) >= max_variance) continue;
+    return std::string("the poses of the ") + (of_reference ? "reference" : "estimate") +
+           " are inverse, from the world to the camera; write poses from the camera to the world";
+  }
+  return "";
 }
 
 }  // namespace
@@ -343,6 +372,8 @@ std::string DescribeOrientationContradiction(const Poses& reference, const Poses
   const double given = OrientationError(reference, estimate);
   if (given <= kRounding) return "";
   const double limit = std::min(std::max(kErrorOfRight, 0.1 * given), kBetter * given);
+  const std::string inverse = DescribeInverse(reference, estimate, estimate_is_own, limit);
+  if (!inverse.empty()) return inverse;
   const std::vector<OrderReading> orders = ReadInOtherOrder(reference, estimate, estimate_is_own);
   const OrderReading* order = nullptr;
   for (const OrderReading& reading : orders) {
@@ -357,7 +388,8 @@ std::string DescribeOrientationContradiction(const Poses& reference, const Poses
         !order || axes.error < kSimpler * order->error ||
         (is_determined && axes.position_error < kBetter * order->position_error);
     if (axes.error < limit && angle > kMinTurn && is_preferred) {
-      return DescribeAxes(axes, given, estimate_is_own);
+      const double smallest = MomentsOf(reference, estimate, 0, reference.size()).common.z();
+      return DescribeAxes(axes, given, estimate_is_own, smallest < 0.0);
     }
   }
   return order ? DescribeOrders(orders, order->error, given) : "";

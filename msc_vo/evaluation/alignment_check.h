@@ -39,10 +39,11 @@ std::string DescribeScaleContradiction(const std::vector<Rigid3>& reference,
 std::string DescribeTurn(const Eigen::Matrix3d& rotation);
 
 /// Describes why orientations contradict each other; empty if they agree or nothing explains it.
-/// Either the camera axes of both trajectories differ by a constant rotation, such as those of
-/// OpenGL (x right, y up, z back), or the scalar of one trajectory's quaternions is at the other
-/// end of the four numbers. Read so, orientations must nearly agree. `estimate_is_own`: the
-/// estimate is a trajectory of msc_vo, so that only the reference can be at fault.
+/// The poses of one trajectory are inverse; or the camera axes of both differ by a constant
+/// rotation, such as those of OpenGL (x right, y up, z back), or as if the images were mirrored; or
+/// the scalar of one trajectory's quaternions is at the other end of the four numbers. Read so,
+/// orientations must nearly agree. `estimate_is_own`: the estimate is a trajectory of msc_vo, so
+/// that only the reference can be at fault.
 std::string DescribeOrientationContradiction(const std::vector<Rigid3>& reference,
                                              const std::vector<Rigid3>& estimate,
                                              bool estimate_is_own);

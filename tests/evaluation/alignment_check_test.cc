@@ -257,6 +257,32 @@ TEST(DescribeOrientationContradiction, NamesTheTurnIfPositionsAreWrong) {
   }
 }
 
+TEST(DescribeOrientationContradiction, NamesInversePoses) {
+  Poses inverse;
+  for (const Rigid3& pose : Path()) inverse.push_back(pose.Inverse());
+  const Poses estimate = WithNoise(Moved(Path()), 1e-3, 1e-3, 1);
+  EXPECT_THAT(Contradiction(inverse, estimate, true), Names("reference", "inverse"));
+  EXPECT_THAT(Contradiction(estimate, inverse), Names("estimate", "inverse"));
+  EXPECT_THAT(Contradiction(estimate, inverse, true), Not(HasSubstr("inverse")));
+}
+
+TEST(DescribeOrientationContradiction, NamesMirroredImages) {
+  for (int axis = 0; axis < 3; ++axis) {
+    Eigen::Vector3d signs = Eigen::Vector3d::Ones();
+    signs(axis) = -1.0;
+    Poses mirrored;
+    for (const Rigid3& pose : Path()) {
+      const Eigen::Matrix3d rotation =
+          signs.asDiagonal() * pose.rotation().toRotationMatrix() * signs.asDiagonal();
+      mirrored.push_back(
+          Rigid3(Eigen::Quaterniond(rotation), signs.asDiagonal() * pose.translation()));
+    }
+    EXPECT_THAT(Contradiction(Path(), mirrored), Names("180 degree turn", "mirrored"));
+  }
+  const Poses opengl = Turned(Path(), {1, 0, 0}, 180);
+  EXPECT_THAT(Contradiction(opengl, Path()), Not(HasSubstr("mirrored")));
+}
+
 TEST(DescribeOrientationContradiction, NamesTheTrajectoryAndItsOrder) {
   const Poses estimate = WithNoise(Path(), 0.01, 0.01, 1);
   EXPECT_THAT(Contradiction(Misread(Path(), true), estimate),
