@@ -29,7 +29,7 @@ bool PinholeCamera::IsValid(std::string* error) const {
     std::ostringstream text;
     text.imbue(std::locale::classic());
     text << "camera: " << name << " = " << value << " must be from " << from << " to " << to
-         << " pixels";
+         << " pixels" << (*name == 'c' ? "; is it of another image size?" : "");
     *error = text.str();
     return false;
   };

@@ -14,6 +14,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "msc_vo/config/orb_slam_config.h"
+#include "msc_vo/datasets/camera_file.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -83,6 +84,17 @@ class YamlReader {
   std::set<std::string> seen_;
 };
 
+// Throws if the file is a calibration as ROS, OpenCV or Open3D write it.
+void RefuseOtherCalibrations(const YAML::Node& root, const YamlReader& reader) {
+  for (const auto& entry : root) {
+    const std::string& name = entry.first.Scalar();
+    if (name != "camera_matrix" && name != "intrinsic_matrix") continue;
+    reader.Fail(entry.first.Mark().line + 1,
+                "'" + name + "' is a calibration of another program; write its numbers as a " +
+                    "camera.txt, " + kCameraFileFormat);
+  }
+}
+
 // Returns the line with '---' or '...' between two documents that are not empty; 0 if there is only
 // one. yaml-cpp reads the first one alone, and does not end for some malformed texts if it is asked
 // for all.
@@ -123,6 +135,7 @@ void ReadConfiguration(const std::string& path, Configuration* configuration) {
     reader.Fail(error.mark.line + 1, "malformed YAML: " + error.msg);
   }
   if (!root.IsMap() && !root.IsNull()) reader.Fail(1, "expected 'name: value' lines");
+  RefuseOtherCalibrations(root, reader);
   configuration->camera.origin = path;
   reader.ReadSection(root, "");
 }

@@ -72,7 +72,10 @@ bool IsValidDepthScale(double depth_scale, std::string* error) {
     *error += FormatText("; %.10g metres per unit are %.6g units per metre", depth_scale,
                          1.0 / depth_scale);
   } else {
-    *error += ", 1000 units per metre if depth is in millimetres";
+    *error +=
+        ", 1000 units per metre if depth is in millimetres; floating-point depth in metres has "
+        "none "
+        "and needs any valid number";
   }
   return false;
 }

@@ -58,7 +58,7 @@ TEST(PinholeCamera, NamesInvalidNumber) {
   camera = PinholeCamera();
   camera.cx = std::numeric_limits<double>::infinity();
   EXPECT_FALSE(camera.IsValid(&error));
-  EXPECT_THAT(error, Names("cx"));
+  EXPECT_THAT(error, Names("cx", "image size"));
   camera = PinholeCamera();
   camera.height = 0;
   EXPECT_FALSE(camera.IsValid(&error));

@@ -87,6 +87,16 @@ TEST_F(CameraOptionsTest, RefusesAFileWithoutACamera) {
               Names(Path("camera:1"), "7", "12", "4"));
 }
 
+TEST_F(CameraOptionsTest, RefusesCalibrationsOfOtherPrograms) {
+  Configuration configuration;
+  WriteText("ros.yaml", "image_width: 640\ncamera_matrix:\n  rows: 3\n  cols: 3\n");
+  WriteText("open3d.json", "{\"width\": 640,\n \"intrinsic_matrix\": [525, 0, 0]}\n");
+  EXPECT_THAT(MessageOf([&] { ReadCamera(Path("ros.yaml"), &configuration); }),
+              Names("ros.yaml:2", "camera_matrix", "camera.txt", "fx fy cx cy"));
+  EXPECT_THAT(MessageOf([&] { ReadCamera(Path("open3d.json"), &configuration); }),
+              Names("open3d.json:2", "intrinsic_matrix", "camera.txt"));
+}
+
 TEST_F(CameraOptionsTest, NamesTheValueThatDiffers) {
   const Calibration calibration = FullCalibration();
   EXPECT_EQ(DescribeDifference(calibration, calibration), "");

@@ -84,6 +84,10 @@ TEST_F(OrbSlamConfigTest, ErrorsNameMissingAndInvalidValues) {
   WriteText("orb.yaml", "Camera.fx: 500\nCamera.fy: 500\nCamera.cx: 320\nCamera.cy: 240\n");
   EXPECT_THAT(MessageOf([&] { ReadOrbSlamConfig(Path("orb.yaml")); }),
               Names("orb.yaml", "DepthMapFactor", "missing"));
+  WriteText("orb.yaml",
+            "Camera.fx: 500\nCamera.fy: 500\nCamera.cx: 320\nCamera.cy: 240\nDepthMapFactor: 1\n");
+  EXPECT_THAT(MessageOf([&] { ReadOrbSlamConfig(Path("orb.yaml")); }),
+              Names("orb.yaml:5", "DepthMapFactor", "1000", "floating-point"));
   for (const std::string value : {"wide", "inf", "nan"}) {
     WriteText("orb.yaml", "\nCamera.fx: " + value + "\n");
     EXPECT_THAT(MessageOf([&] { ReadOrbSlamConfig(Path("orb.yaml")); }),
