@@ -26,7 +26,8 @@ Eigen::MatrixXd ReadMatrix(const std::string& path, int rows, int columns) {
   if (values.size() != static_cast<size_t>(rows) * columns) {
     throw std::runtime_error(path + ": expected " + std::to_string(rows) + " x " +
                              std::to_string(columns) + " numbers, found " +
-                             std::to_string(values.size()) + "; restore the file");
+                             std::to_string(values.size()) + "; write all " + std::to_string(rows) +
+                             " rows");
   }
   return Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
       values.data(), rows, columns);
@@ -39,9 +40,19 @@ std::optional<Rigid3> RigidFromMatrix(const Eigen::Matrix4d& matrix) {
   constexpr double kMaxDeviation = 1e-2;
   const double deviation = (r.transpose() * r - Eigen::Matrix3d::Identity()).norm();
   if (deviation > kMaxDeviation || r.determinant() < 0.0) return std::nullopt;
+  constexpr double kMaxRounding = 1e-6;
+  const Eigen::RowVector4d last_row(0.0, 0.0, 0.0, 1.0);
+  if ((matrix.row(3) - last_row).norm() > kMaxRounding) return std::nullopt;
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(r, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Matrix3d nearest = svd.matrixU() * svd.matrixV().transpose();
   return Rigid3(Eigen::Quaterniond(nearest).normalized(), matrix.topRightCorner<3, 1>());
+}
+
+void RefuseTransposed(const Eigen::Matrix4d& matrix, const std::string& place) {
+  if (RigidFromMatrix(matrix) || !RigidFromMatrix(matrix.transpose())) return;
+  throw std::runtime_error(place +
+                           ": the last row of the pose holds the translation; write the "
+                           "transposed matrix, [R t; 0 0 0 1]");
 }
 
 void ReadPoseFiles(const std::function<std::string(const SequenceEntry&)>& pose_path,
@@ -50,7 +61,9 @@ void ReadPoseFiles(const std::function<std::string(const SequenceEntry&)>& pose_
   for (const SequenceEntry& entry : index->entries) {
     const std::string path = pose_path(entry);
     if (!HasEntry(path)) continue;
-    const std::optional<Rigid3> pose = RigidFromMatrix(ReadMatrix(path, 4, 4));
+    const Eigen::Matrix4d matrix = ReadMatrix(path, 4, 4);
+    const std::optional<Rigid3> pose = RigidFromMatrix(matrix);
+    RefuseTransposed(matrix, path);
     if (pose) {
       index->ground_truth.push_back({entry.timestamp, *pose});
     } else {

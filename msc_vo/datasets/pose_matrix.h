@@ -21,11 +21,16 @@ namespace msc_vo {
 Eigen::MatrixXd ReadMatrix(const std::string& path, int rows, int columns);
 
 /// Converts a 4x4 matrix [R t; 0 1] to a transform with the rotation nearest to R. None if a number
-/// is not finite or R is not a rotation up to rounding: data sets mark lost poses this way.
+/// is not finite, R is not a rotation up to rounding, or the last row is another one: data sets
+/// mark lost poses this way.
 std::optional<Rigid3> RigidFromMatrix(const Eigen::Matrix4d& matrix);
+
+/// Throws std::runtime_error, naming the place of the matrix, if only its transpose is a pose.
+void RefuseTransposed(const Eigen::Matrix4d& matrix, const std::string& place);
 
 /// Reads the ground truth of a layout with one file per image, which contains the 4x4 matrix
 /// world_from_cam. Missing files are ignored. Adds a warning with the number of invalid poses.
+/// Throws std::runtime_error, naming the file, if a matrix is transposed.
 void ReadPoseFiles(const std::function<std::string(const SequenceEntry&)>& pose_path,
                    SequenceIndex* index);
 

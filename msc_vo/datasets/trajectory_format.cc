@@ -52,7 +52,6 @@ std::optional<Rigid3> PoseOfRow(const std::vector<double>& values) {
   const int count = static_cast<int>(values.size() - values.size() % 2);
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
   for (int i = 0; i < count; ++i) matrix(i / 4, i % 4) = numbers[i];
-  if (matrix.row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0)) return std::nullopt;
   return RigidFromMatrix(matrix);
 }
 

@@ -47,6 +47,8 @@ TEST_F(SequenceTest, ReadsSevenScenes) {
   ASSERT_EQ(index.ground_truth.size(), 2u);
   EXPECT_EQ(index.ground_truth[1].world_from_cam.translation(), Eigen::Vector3d(0.5, -1, 2));
   EXPECT_EQ(index.warnings.size(), 2u);  // one unpaired image, one lost pose
+  WriteText("frame-000003.pose.txt", "1 0 0 0\n0 1 0 0\n0 0 1 0\n0.5 -1 2 1\n");
+  EXPECT_THAT(ErrorOf(), Names("frame-000003.pose.txt", "transposed", "[R t; 0 0 0 1]"));
 }
 
 TEST_F(SequenceTest, ReadsIntrinsicsOf3DMatch) {
@@ -153,6 +155,8 @@ TEST_F(SequenceTest, ReadsReplica) {
   EXPECT_EQ(index.preset, "replica");
   WriteText("traj.txt", "1 0 0\n");
   EXPECT_THAT(ErrorOf(), Names("traj.txt:1", "16"));
+  WriteText("traj.txt", "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1\n1 0 0 0 0 1 0 0 0 0 1 0 4 5 6 1\n");
+  EXPECT_THAT(ErrorOf(), Names("traj.txt:2", "transposed"));
 }
 
 // Rows are poses of frames by number, if the numbers allow that.
