@@ -42,7 +42,8 @@ bool IsPng(const std::string& bytes) { return bytes.compare(0, 4, "\x89PNG") == 
 
 std::string ReadImageBytes(const std::string& path, const SequenceEntry& entry) {
   const std::string problem = FileProblem(path, kMaxImageBytes);
-  if (!problem.empty()) Fail(path, entry, problem + "; restore the file or remove its line");
+  if (!problem.empty())
+    Fail(path, entry, problem + "; restore the file, or correct or remove its line");
   return ReadFile(path, kMaxImageBytes);
 }
 
@@ -107,7 +108,7 @@ double MedianMeasured(const cv::Mat& metres) {
   for (int y = 0; y < metres.rows; y += kStep) {
     for (int x = 0; x < metres.cols; x += kStep) {
       const float z = metres.at<float>(y, x);
-      if (z > 0.0f && z <= std::numeric_limits<float>::max()) values.push_back(z);
+      if (z > 0.0f) values.push_back(z);
     }
   }
   if (values.empty()) return 0.0;
@@ -116,11 +117,19 @@ double MedianMeasured(const cv::Mat& metres) {
   return *middle;
 }
 
+void CheckFloatDepth(const cv::Mat& metres, const SequenceEntry& entry) {
+  // The largest median depth that is taken for metres, as in the finding depth.scale.
+  constexpr double kMaxMedianDepth = 40.0;
+  const double median = MedianMeasured(metres);
+  if (median <= kMaxMedianDepth) return;
+  Fail(entry.depth_path, entry,
+       "has floating-point numbers with a median of " + FormatNumber(median) +
+           " metres, beyond any RGB-D camera; give their units per metre, "
+           "--set camera.float_depth_scale=1000 for millimetres");
+}
+
 constexpr char kRegisterDepth[] =
     "register the depth to the colour image first, or describe the depth camera in camera.txt";
-
-// The largest median depth that is taken for metres, as in the finding depth.scale.
-constexpr double kMaxMedianDepth = 40.0;
 
 }  // namespace
 
@@ -255,6 +264,7 @@ RgbdImage RgbdDecoder::MakeImage(int i, const SequenceEntry& entry, cv::Mat colo
   image.depth_delay = entry.depth_delay;
   image.gray = ToGray(color);
   image.depth = ToMetres(depth, calibration_.depth_scale, index_.clipped_depth.limits);
+  if (depth.type() == CV_32FC1) CheckFloatDepth(image.depth, entry);
   if (registration_) {
     image.recorded_depth = image.depth;
     image.depth = registration_->Register(image.recorded_depth);
@@ -277,15 +287,7 @@ cv::Mat RgbdDecoder::DecodeDepth(const StoredImage& stored, const SequenceEntry&
 }
 
 void RgbdDecoder::CheckDepthType(const cv::Mat& depth, const SequenceEntry& entry) const {
-  if (depth.type() == CV_16UC1) return;
-  if (depth.type() == CV_32FC1) {
-    const double median = MedianMeasured(depth);
-    if (median <= kMaxMedianDepth) return;
-    Fail(entry.depth_path, entry,
-         "has floating-point numbers with a median of " + FormatNumber(median) +
-             " metres, beyond any RGB-D camera; give their units per metre, "
-             "--set camera.float_depth_scale=1000 for millimetres");
-  }
+  if (depth.type() == CV_16UC1 || depth.type() == CV_32FC1) return;
   Fail(entry.depth_path, entry,
        "has " + TypeText(depth) +
            "; depth images need 1 channel of unsigned 16 bits or of floating-point numbers (a "

@@ -67,6 +67,21 @@ TEST_F(FloatDepthTest, OfOtherUnitsNeedsTheirNumber) {
   EXPECT_FLOAT_EQ(decoder.ReadForExport(0).depth.pixels.at<float>(3, 3), 1.5f);
 }
 
+// The background of a rendered image may cover most of it.
+TEST_F(FloatDepthTest, MayBeClippedInMostPixels) {
+  cv::Mat depth(6, 8, CV_32FC1, cv::Scalar(1e10));
+  depth.colRange(0, 2).setTo(1.5f);
+  std::filesystem::create_directories(Path("depth"));
+  ASSERT_TRUE(cv::imwrite(Path("depth/1.tiff"), depth));
+  SequenceIndex index = OpenSequence(Folder());
+  const Calibration calibration = ResolveCalibration({}, "", &index);
+  EXPECT_EQ(RgbdDecoder(index, calibration).DecodeRawDepth(0).at<float>(0, 7), 1e10f);
+  index.clipped_depth.limits.farthest = 1e10f;
+  const cv::Mat metres = RgbdDecoder(index, calibration).Decode(0).depth;
+  EXPECT_EQ(metres.at<float>(0, 0), 1.5f);
+  EXPECT_EQ(metres.at<float>(0, 7), 0.0f);
+}
+
 // Pixels that a container gives are its own: they are not converted in place.
 TEST_F(FloatDepthTest, OfAContainerIsConvertedOnce) {
   class OneImage : public ImageContainer {
