@@ -300,6 +300,20 @@ class TableReader {
   bool is_named_ = false;
 };
 
+// Whether all fields between blanks or semicolons are numbers with a decimal comma, "-0,5".
+bool HasDecimalCommas(std::string line) {
+  std::replace(line.begin(), line.end(), ';', ' ');
+  std::istringstream fields(line);
+  int count = 0;
+  for (std::string field; fields >> field; ++count) {
+    const size_t comma = field.find(',');
+    if (comma == std::string::npos || comma + 1 == field.size()) return false;
+    field[comma] = '.';
+    if (!ParseNumber(field)) return false;
+  }
+  return count > 1;
+}
+
 }  // namespace
 
 bool IsUnitQuaternion(const Eigen::Vector4d& components) {
@@ -318,6 +332,9 @@ PoseRows ReadPoseRows(const std::string& path, bool any_header) {
     const std::vector<std::string> fields = SplitFields(text);
     if (fields.empty()) continue;
     const bool is_comment = fields[0][0] == '#';
+    if (!is_comment && HasDecimalCommas(text)) {
+      TextLine{path, number, fields, ""}.Fail("has decimal commas; write points");
+    }
     const auto is_number = [](const std::string& field) { return ParseNumber(field).has_value(); };
     if (!is_comment && std::any_of(fields.begin(), fields.end(), is_number)) break;
     const std::optional<PoseColumns> columns = FindPoseColumns(text);

@@ -227,6 +227,17 @@ TEST_F(TrajectoryFormatTest, NamesFileAndLineOfErrors) {
   EXPECT_THAT(MessageOf([&] { Read(kTum, TrajectoryFormat::kKitti); }), Names("file:1", "12", "8"));
 }
 
+TEST_F(TrajectoryFormatTest, RefusesDecimalCommas) {
+  for (const std::string separator : {" ", ";", "; "}) {
+    std::string row = "1,5";
+    for (const char* number : {"0,25", "-1,5", "2,0", "0,0", "0,0", "0,0", "1,0"}) {
+      row += separator + number;
+    }
+    EXPECT_THAT(MessageOf([&] { Read("# comment\n" + row + "\n"); }), Names("file:2", "commas"));
+  }
+  EXPECT_EQ(Read("1,2,3,4,0,0,0,1\n").poses.size(), 1u);
+}
+
 TEST_F(TrajectoryFormatTest, SharesStampsRowByRow) {
   TrajectoryFile kitti = Read(std::string(kKitti) + kKitti);
   TrajectoryFile tum = Read("5 0 0 0 0 0 0 1\n6 1 0 0 0 0 0 1\n");
