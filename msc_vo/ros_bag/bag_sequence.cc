@@ -3,11 +3,14 @@
 
 #include "msc_vo/ros_bag/bag_sequence.h"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <stdexcept>
 
 #include "msc_vo/datasets/camera_preset.h"
 #include "msc_vo/datasets/image_pairing.h"
+#include "msc_vo/datasets/image_size_fit.h"
 #include "msc_vo/datasets/tum_folder.h"
 #include "msc_vo/logging/logger.h"
 #include "msc_vo/ros_bag/bag_file.h"
@@ -49,11 +52,15 @@ class BagContainer : public ImageContainer {
   ImageTopic depth_;
 };
 
-// What the first message of a topic with images holds.
-RosImageKind KindOf(const BagFile& bag, const BagTopic& topic) {
-  return bag.Parse(topic.name, 0, [&](std::string_view bytes, RosSerialization form) {
-    return topic.type == kCompressedType ? KindOfFormat(ParseRosCompressedImage(bytes, form).format)
-                                         : KindOfEncoding(ParseRosImage(bytes, form).encoding);
+// A topic with images and what its first message holds.
+ImageTopic ReadTopic(const BagFile& bag, const BagTopic& topic) {
+  return bag.Parse(topic.name, 0, [&](std::string_view bytes, RosSerialization form) -> ImageTopic {
+    if (topic.type == kCompressedType) {
+      const std::string format = ParseRosCompressedImage(bytes, form).format;
+      return {topic.name, KindOfFormat(format), true, format};
+    }
+    const std::string encoding = ParseRosImage(bytes, form).encoding;
+    return {topic.name, KindOfEncoding(encoding), false, encoding};
   });
 }
 
@@ -65,10 +72,10 @@ std::vector<ImageTopic> FindImageTopics(const BagFile& bag, std::vector<std::str
     if (topic.type != kImageType && !is_compressed) continue;
     if (bag.NumMessages(topic.name) == 0) continue;
     try {
-      topics.push_back({topic.name, KindOf(bag, topic), is_compressed});
+      topics.push_back(ReadTopic(bag, topic));
     } catch (const std::runtime_error& error) {  // another topic may be good
       warnings->push_back(error.what());
-      topics.push_back({topic.name, RosImageKind::kOther, is_compressed});
+      topics.push_back({topic.name, RosImageKind::kOther, is_compressed, ""});
     }
   }
   return topics;
@@ -120,6 +127,33 @@ std::vector<MessageTimes> ListImages(const ImageTopic& topic, const BagFile& bag
   return times;
 }
 
+// The camera of depth images that are not named as registered and have another CameraInfo than the
+// colour images; none if there is no such. Its place is not in the CameraInfo.
+std::optional<DepthCamera> SeparateDepthCamera(const BagFile& bag, const ImageTopic& depth,
+                                               const Calibration& color) {
+  constexpr double kTolerance = 0.01;  // relative to the focal length
+  const std::string name = CameraInfoTopicOf(depth.name);
+  const BagTopic* info = bag.FindTopic(name);
+  if (IsRegistered(depth) || info == nullptr || info->type != kCameraInfoType ||
+      bag.NumMessages(name) == 0) {
+    return std::nullopt;
+  }
+  std::string problem;
+  const std::optional<Calibration> own =
+      CalibrationFrom(bag.Parse(name, 0, ParseRosCameraInfo), IsRectified(depth), &problem);
+  if (!own) return std::nullopt;
+  const PinholeCamera& a = color.Recorded();
+  const PinholeCamera b = ScaledCamera(own->Recorded(), {a.width, a.height});
+  const double difference = std::max(
+      {std::abs(a.fx - b.fx), std::abs(a.fy - b.fy), std::abs(a.cx - b.cx), std::abs(a.cy - b.cy)});
+  if (difference <= kTolerance * std::abs(a.fx)) return std::nullopt;
+  DepthCamera camera;
+  camera.camera = own->Recorded();
+  camera.distortion = own->distortion;
+  camera.distortion.recorded.reset();
+  return camera;
+}
+
 void ReadCamera(const BagFile& bag, const ImageTopic& color, const ImageTopic& depth,
                 SequenceIndex* index) {
   for (const ImageTopic* topic : {&color, &depth}) {
@@ -142,9 +176,19 @@ void ReadCamera(const BagFile& bag, const ImageTopic& color, const ImageTopic& d
     index->warnings.push_back(name + " gives no calibration: " + problem);
   }
   if (!index->calibration) return;
+  std::optional<DepthCamera>& depth_camera = index->calibration->depth_camera;
   std::string problem;
-  index->calibration->depth_camera = RealSenseDepthCamera(bag, color.name, depth.name, &problem);
-  if (!problem.empty()) {
+  depth_camera = RealSenseDepthCamera(bag, color.name, depth.name, &problem);
+  if (depth_camera) return;
+  depth_camera = SeparateDepthCamera(bag, depth, *index->calibration);
+  if (depth_camera) {
+    index->warnings.push_back(
+        CameraInfoTopicOf(depth.name) + " of the depth images is another camera than that of " +
+        color.name + ", and they are not named as registered to colour; its place is not known" +
+        (problem.empty() ? "" : " (" + problem + ")") +
+        " and taken for that of the colour camera: record registered depth, or set "
+        "camera.depth_camera.translation and rotation");
+  } else if (!problem.empty()) {
     index->warnings.push_back(
         "the place of the depth camera beside the colour camera is not known: " + problem);
   }

@@ -99,7 +99,7 @@ class Ros1Message {
   }
   template <typename Numbers>
   Ros1Message& AddEach(const Numbers& values) {
-    for (const double value : values) Add(value);
+    for (const auto value : values) Add(value);
     return *this;
   }
   Ros1Message& AddArray(const std::string& bytes) {
@@ -132,6 +132,7 @@ std::string CameraInfoMessage(const TextFields& info) {
       .AddEach(std::array<double, 9>{fx, 0, cx, 0, fy, cy, 0, 0, 1})
       .AddEach(std::array<double, 9>{1, 0, 0, 0, 1, 0, 0, 0, 1})
       .AddEach(std::array<double, 12>{fx, 0, cx, 0, 0, fy, cy, 0, 0, 0, 1, 0})
+      .AddEach(std::array<uint32_t, 6>{})  // neither binning nor a region
       .Take();
 }
 

@@ -11,6 +11,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "msc_vo/datasets/image_size_fit.h"
 #include "msc_vo/image_files/image_file.h"
 #include "msc_vo/ros_bag/rvl.h"
 
@@ -41,6 +42,11 @@ const std::map<std::string, Encoding>& Encodings() {
       {"bayer_bggr8", {RosImageKind::kColor, CV_8UC1, cv::COLOR_BayerRG2BGR}},
       {"bayer_gbrg8", {RosImageKind::kColor, CV_8UC1, cv::COLOR_BayerGR2BGR}},
       {"bayer_grbg8", {RosImageKind::kColor, CV_8UC1, cv::COLOR_BayerGB2BGR}},
+      // Two pixels share their colour.
+      {"yuv422", {RosImageKind::kColor, CV_8UC2, cv::COLOR_YUV2BGR_UYVY}},
+      {"uyvy", {RosImageKind::kColor, CV_8UC2, cv::COLOR_YUV2BGR_UYVY}},
+      {"yuv422_yuy2", {RosImageKind::kColor, CV_8UC2, cv::COLOR_YUV2BGR_YUY2}},
+      {"yuyv", {RosImageKind::kColor, CV_8UC2, cv::COLOR_YUV2BGR_YUY2}},
       {"16UC1", {RosImageKind::kDepth, CV_16UC1, kNoConversion}},
       {"mono16", {RosImageKind::kDepth, CV_16UC1, kNoConversion}},
       {"32FC1", {RosImageKind::kDepth, CV_32FC1, kNoConversion}}};
@@ -129,6 +135,19 @@ std::optional<LensDistortion> RosLens(const RosCameraInfo& info) {
   return lens;
 }
 
+// The camera of the region and the binned pixels of a CameraInfo.
+PinholeCamera PublishedCamera(PinholeCamera camera, const RosCameraInfo& info) {
+  if (info.roi_width > 0 && info.roi_height > 0) {
+    camera.cx -= info.roi_x;
+    camera.cy -= info.roi_y;
+    camera.width = static_cast<int>(info.roi_width);
+    camera.height = static_cast<int>(info.roi_height);
+  }
+  const int x = static_cast<int>(std::max(info.binning_x, 1u));
+  const int y = static_cast<int>(std::max(info.binning_y, 1u));
+  return x == 1 && y == 1 ? camera : ScaledCamera(camera, {camera.width / x, camera.height / y});
+}
+
 }  // namespace
 
 RosImageKind KindOfEncoding(const std::string& encoding) {
@@ -152,6 +171,7 @@ StoredImage ConvertRosImage(const RosImage& image) {
   const size_t row_bytes = static_cast<size_t>(image.width) * CV_ELEM_SIZE(encoding.type);
   if (image.width == 0 || image.height == 0 || image.step < row_bytes ||
       image.step % CV_ELEM_SIZE1(encoding.type) != 0 ||
+      (encoding.type == CV_8UC2 && image.width % 2 != 0) ||
       image.data.size() / image.step < image.height) {
     throw std::runtime_error("damaged image: its size does not fit its data");
   }
@@ -192,6 +212,7 @@ std::optional<Calibration> CalibrationFrom(const RosCameraInfo& info, bool is_re
     *problem = "the camera is not calibrated";
     return std::nullopt;
   }
+  camera = PublishedCamera(camera, info);
   const bool is_zero = std::all_of(info.d.begin(), info.d.end(), [](double k) { return k == 0.0; });
   if (is_rectified || (is_zero && ModelOf(info) != kEquidistant)) return calibration;
   const std::optional<LensDistortion> lens = RosLens(info);

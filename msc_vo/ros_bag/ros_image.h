@@ -21,8 +21,9 @@ RosImageKind KindOfEncoding(const std::string& encoding);
 RosImageKind KindOfFormat(const std::string& format);
 
 /// Converts a colour image (8 bits per channel: bgr8, rgb8, bgra8, rgba8, mono8, 8UC1, 8UC3, Bayer
-/// patterns) or a depth image (16UC1 and mono16 in millimetres, 32FC1 in metres). Throws
-/// std::runtime_error if the encoding is another one or the size does not fit the data.
+/// patterns, yuv422 and yuv422_yuy2 and their names uyvy and yuyv) or a depth image (16UC1 and
+/// mono16 in millimetres, 32FC1 in metres). Throws std::runtime_error if the encoding is another
+/// one or the size does not fit the data.
 StoredImage ConvertRosImage(const RosImage& image);
 
 /// Returns a compressed colour image as it is, and a compressed depth image (compressedDepth of

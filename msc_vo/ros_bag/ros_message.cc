@@ -73,6 +73,12 @@ RosCameraInfo ParseRosCameraInfo(std::string_view bytes, RosSerialization serial
   fields->ReadDoubles(info.k, 9);
   fields->ReadDoubles(info.r, 9);
   fields->ReadDoubles(info.p, 12);
+  info.binning_x = fields->ReadWord();
+  info.binning_y = fields->ReadWord();
+  info.roi_x = fields->ReadWord();
+  info.roi_y = fields->ReadWord();
+  info.roi_height = fields->ReadWord();
+  info.roi_width = fields->ReadWord();
   return info;
 }
 

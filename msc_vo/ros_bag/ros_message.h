@@ -50,7 +50,8 @@ struct RosCompressedImage {
   std::string_view data;
 };
 
-/// sensor_msgs/CameraInfo, up to the projection matrix.
+/// sensor_msgs/CameraInfo. The intrinsics are those of full images; the published ones show the
+/// region and have a pixel for each `binning_x` x `binning_y` pixels of it.
 struct RosCameraInfo {
   RosHeader header;
   uint32_t height = 0;
@@ -60,6 +61,12 @@ struct RosCameraInfo {
   double k[9] = {};
   double r[9] = {};
   double p[12] = {};
+  uint32_t binning_x = 0;  ///< 0 as 1
+  uint32_t binning_y = 0;
+  uint32_t roi_x = 0;
+  uint32_t roi_y = 0;
+  uint32_t roi_height = 0;  ///< 0: all rows
+  uint32_t roi_width = 0;   ///< 0: all columns
 };
 
 /// All messages with images begin with a header.

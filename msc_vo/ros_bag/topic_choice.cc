@@ -106,6 +106,7 @@ std::string DescribeTopic(const ImageTopic& topic) {
       break;
     case RosImageKind::kOther:
       text += "neither colour nor depth";
+      if (!topic.encoding.empty()) text += ": " + topic.encoding;
       break;
   }
   if (topic.is_compressed) text += ", compressed";

@@ -164,6 +164,21 @@ TEST_F(BagSequenceTest, WarnsOfACameraInfoOfDepthThatIsNotRegistered) {
   }
 }
 
+TEST_F(BagSequenceTest, DepthWithACameraInfoOfItsOwnIsNotRegistered) {
+  for (const double fx : {300.0, 525.5}) {
+    std::unique_ptr<BagWriter> bag = WriteRos1Bag(Path("x.bag"));
+    CameraInfoFields info;
+    info.fx = fx;
+    info.width = 32, info.height = 24, info.cx = 15.5, info.cy = 11.5;
+    bag->Write("/camera/depth/camera_info", "sensor_msgs/CameraInfo", 1.0, CameraInfoMessage(info));
+    WriteBag(std::move(bag), "16UC1");
+    const SequenceIndex index = OpenBag(Path("x.bag"));
+    EXPECT_EQ(index.calibration->camera.fx, 525.0);
+    EXPECT_EQ(index.calibration->depth_camera.has_value(), fx == 300.0);
+    EXPECT_EQ(index.warnings.empty(), fx != 300.0);
+  }
+}
+
 TEST_F(BagSequenceTest, PrefersThePresetThatTheNameSuggests) {
   WriteBag("rgbd_dataset_freiburg1_xyz.bag", "32FC1");
   WriteText("rgbd_dataset_freiburg1_xyz-groundtruth.txt", "100.0 0 0 0 0 0 0 1\n");

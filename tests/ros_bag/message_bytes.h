@@ -81,6 +81,8 @@ struct CameraInfoFields {
   double fx = 525.0, fy = 526.0, cx = 319.5, cy = 239.5;
   std::string model = "plumb_bob";
   std::vector<double> d = {0, 0, 0, 0, 0};
+  uint32_t binning = 0;
+  cv::Rect roi;
 };
 
 inline std::string CameraInfoMessage(const CameraInfoFields& info,
@@ -96,6 +98,13 @@ inline std::string CameraInfoMessage(const CameraInfoFields& info,
       .AddEach(Numbers{info.fx, 0.0, info.cx, 0.0, info.fy, info.cy, 0.0, 0.0, 1.0})
       .AddEach(Numbers{1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0})
       .AddEach(Numbers{500.0, 0.0, 320.0, 0.0, 0.0, 501.0, 240.0, 0.0, 0.0, 0.0, 1.0, 0.0})
+      .Add(info.binning)
+      .Add(info.binning)
+      .Add(static_cast<uint32_t>(info.roi.x))
+      .Add(static_cast<uint32_t>(info.roi.y))
+      .Add(static_cast<uint32_t>(info.roi.height))
+      .Add(static_cast<uint32_t>(info.roi.width))
+      .Add(uint8_t{0})
       .bytes();
 }
 

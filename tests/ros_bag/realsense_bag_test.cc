@@ -152,7 +152,8 @@ TEST_F(RealSenseBagTest, KnowsRegisteredDepth) {
 TEST_F(RealSenseBagTest, SaysWhatIsMissing) {
   WriteOldBag(Path("x.bag"), false);
   const SequenceIndex index = OpenBag(Path("x.bag"));
-  EXPECT_FALSE(index.calibration->depth_camera);
+  ASSERT_TRUE(index.calibration->depth_camera);
+  EXPECT_EQ(index.calibration->depth_camera->camera.fx, 20.0);
   EXPECT_THAT(index.warnings, testing::ElementsAre(Names("Color_0", "transform", "not known")));
 }
 

@@ -49,7 +49,7 @@ TEST(RosImage, ConvertsColours) {
   EXPECT_EQ(convert(cv::Mat(4, 4, CV_8UC1), "bayer_grbg8").type(), CV_8UC3);
   EXPECT_EQ(convert(cv::Mat(2, 3, CV_16UC1), "16UC1").type(), CV_16UC1);
   EXPECT_EQ(convert(cv::Mat(2, 3, CV_32FC1), "32FC1").type(), CV_32FC1);
-  EXPECT_THAT(MessageOf([&] { convert(bgr, "yuv422"); }), Names("yuv422"));
+  EXPECT_THAT(MessageOf([&] { convert(bgr, "nv24"); }), Names("nv24"));
   EXPECT_THAT(MessageOf([&] { convert(cv::Mat(2, 3, CV_8UC1), "bgr8"); }),
               Names("damaged", "size"));
   const std::string bytes = ImageMessage(1, 0, cv::Mat(2, 3, CV_32FC1), "32FC1");
@@ -159,6 +159,38 @@ TEST(RosCamera, TakesTheMatrixThatFitsTheImages) {
   fields.fx = 0.0;
   EXPECT_FALSE(calibrate(false));
   EXPECT_THAT(problem, Names("calibrated"));
+}
+
+TEST(RosCamera, IsThatOfTheRegionAndTheBinnedPixels) {
+  CameraInfoFields fields;
+  std::string problem;
+  const auto camera = [&] {
+    return CalibrationFrom(ParseRosCameraInfo(CameraInfoMessage(fields), kRos1), false, &problem)
+        ->camera;
+  };
+  fields.binning = 2;
+  EXPECT_EQ(camera().width, 320);
+  EXPECT_EQ(camera().fx, 262.5);
+  EXPECT_EQ(camera().cx, 159.5);
+  fields.binning = 1;
+  fields.roi = {40, 20, 320, 240};
+  EXPECT_EQ(camera().height, 240);
+  EXPECT_EQ(camera().fx, 525.0);
+  EXPECT_EQ(camera().cx, 279.5);
+  EXPECT_EQ(camera().cy, 219.5);
+}
+
+TEST(RosImages, ConvertsPixelsThatShareTheirColour) {
+  for (const auto& [encoding, luma] : {std::pair("yuv422_yuy2", 0), std::pair("yuv422", 1)}) {
+    cv::Mat pixels(2, 4, CV_8UC2, cv::Scalar::all(128));
+    pixels.at<cv::Vec2b>(1, 2)[luma] = 235;  // white
+    EXPECT_EQ(KindOfEncoding(encoding), RosImageKind::kColor);
+    const std::string bytes = ImageMessage(1, 0, pixels, encoding);
+    const cv::Mat image = ConvertRosImage(ParseRosImage(bytes, kRos1)).pixels;
+    ASSERT_EQ(image.type(), CV_8UC3);
+    EXPECT_EQ(image.at<cv::Vec3b>(1, 2), cv::Vec3b(255, 255, 255));
+    EXPECT_LT(image.at<cv::Vec3b>(1, 1)[0], 140);
+  }
 }
 
 }  // namespace

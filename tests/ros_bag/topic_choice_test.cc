@@ -81,6 +81,8 @@ TEST(TopicChoice, TakesTheColourOfTheCameraWithDepth) {
   EXPECT_EQ(ranked.front().name, "/cam_2/color/image_raw");
   EXPECT_EQ(ranked.back().name, "/cam_2/depth/preview");
   EXPECT_EQ(DescribeTopic(ranked.back()), "/cam_2/depth/preview (colour, named as depth)");
+  EXPECT_EQ(DescribeTopic({"/c", RosImageKind::kOther, false, "nv24"}),
+            "/c (neither colour nor depth: nv24)");
 }
 
 TEST(TopicChoice, NamesTheCameraInfo) {
