@@ -32,9 +32,8 @@ std::string FindDepth(const std::string& directory, const std::string& ending,
   std::sort(entries.begin(), entries.end());
   const auto registered = std::find_if(entries.begin(), entries.end(), [&](const auto& entry) {
     const fs::path path = entry;
-    const bool is_kind =
-        ending.empty() ? !ListImages(entry).empty() : path.extension().string() == ending;
-    return is_kind && IsNamedRegistered(Lowercase(path.stem().string()));
+    return IsNamedRegistered(Lowercase(path.stem().string())) &&
+           (ending.empty() ? !ListImages(entry).empty() : path.extension().string() == ending);
   });
   if (registered == entries.end()) return HasEntry(plain) ? plain : "";
   if (warnings != nullptr && HasEntry(plain)) {

@@ -36,6 +36,11 @@ cv::Mat DecodeCommonKind(const std::string& bytes, int mode) {
 cv::Mat DecodeImage(const std::string& bytes, int mode) {
   const std::optional<ImageSize> size = SizeInHeader(bytes);
   if (!size || !IsPlausibleSize(*size, bytes.size()) || IsTruncatedJpeg(bytes)) return {};
+  if (IsTiffOfOtherNumbers(bytes)) {
+    throw std::runtime_error(
+        "TIFF images of unsigned numbers of 32 bits or floating-point numbers of 16 bits are not "
+        "read; write unsigned numbers of 16 bits or floating-point numbers of 32 bits");
+  }
   try {
     const cv::Mat image = DecodeCommonKind(bytes, mode);
     return image.empty() ? DecodeWithOpenCv(bytes, mode) : image;

@@ -19,8 +19,9 @@ struct ImageSize {
 /// is one of OpenCV's cv::ImreadModes. Returns an empty image if the contents are damaged or no
 /// such image, and without decoding it if the header claims more pixels than the file can hold.
 /// Throws std::runtime_error if the file needs OpenCV's image formats and these are not installed,
-/// or is EXR without OPENCV_IO_ENABLE_OPENEXR=1 in the environment, which the command msc_vo sets,
-/// and std::bad_alloc without enough memory, which does not make an image damaged.
+/// is a TIFF of numbers that OpenCV does not read, or is EXR without OPENCV_IO_ENABLE_OPENEXR=1 in
+/// the environment, which the command msc_vo sets, and std::bad_alloc without enough memory, which
+/// does not make an image damaged.
 cv::Mat DecodeImage(const std::string& bytes, int mode);
 
 /// Reads an image with its original channels and bit depth. Returns an empty image if the file is

@@ -97,21 +97,27 @@ std::optional<ImageSize> BmpSize(const Bytes& bytes) {
   return MakeSize(bytes.Number(18, 4, ByteOrder::kLittle), height);
 }
 
-// The size is in two of the entries of the first directory.
-std::optional<ImageSize> TiffSize(const Bytes& bytes, ByteOrder order) {
+std::optional<ByteOrder> TiffOrder(const Bytes& bytes) {
+  if (bytes.StartWith(std::string("II*\0", 4))) return ByteOrder::kLittle;
+  if (bytes.StartWith(std::string("MM\0*", 4))) return ByteOrder::kBig;
+  return std::nullopt;
+}
+
+// The value of an entry of the first directory.
+std::optional<uint32_t> TiffEntry(uint32_t tag, const Bytes& bytes, ByteOrder order) {
   const auto directory = bytes.Number(4, 4, order);
   const auto num_entries = directory ? bytes.Number(*directory, 2, order) : std::nullopt;
-  if (!num_entries) return std::nullopt;
-  constexpr uint32_t kWidthTag = 256, kHeightTag = 257, kShort = 3;
-  std::optional<uint32_t> width, height;
-  for (size_t i = 0; i < *num_entries; ++i) {
+  constexpr uint32_t kShort = 3;
+  for (size_t i = 0; i < num_entries.value_or(0); ++i) {
     const size_t at = size_t{*directory} + 2 + 12 * i;
-    const auto tag = bytes.Number(at, 2, order);
-    if (tag != kWidthTag && tag != kHeightTag) continue;
-    const size_t num_bytes = bytes.Number(at + 2, 2, order) == kShort ? 2 : 4;
-    (tag == kWidthTag ? width : height) = bytes.Number(at + 8, num_bytes, order);
+    if (bytes.Number(at, 2, order) != tag) continue;
+    return bytes.Number(at + 8, bytes.Number(at + 2, 2, order) == kShort ? 2 : 4, order);
   }
-  return MakeSize(width, height);
+  return std::nullopt;
+}
+
+std::optional<ImageSize> TiffSize(const Bytes& bytes, ByteOrder order) {
+  return MakeSize(TiffEntry(256, bytes, order), TiffEntry(257, bytes, order));
 }
 
 std::optional<ImageSize> WebpSize(const Bytes& bytes) {
@@ -189,12 +195,21 @@ std::optional<ImageSize> SizeInHeader(const std::string& content) {
   if (bytes.StartWith("\x89PNG\r\n\x1A\n")) return PngSize(bytes);
   if (bytes.StartWith("\xFF\xD8")) return JpegSize(bytes);
   if (bytes.StartWith("BM")) return BmpSize(bytes);
-  if (bytes.StartWith(std::string("II*\0", 4))) return TiffSize(bytes, ByteOrder::kLittle);
-  if (bytes.StartWith(std::string("MM\0*", 4))) return TiffSize(bytes, ByteOrder::kBig);
+  if (const auto order = TiffOrder(bytes)) return TiffSize(bytes, *order);
   if (bytes.StartWith("\x76\x2F\x31\x01")) return ExrSize(content);
   if (bytes.StartWith("RIFF") && bytes.Have(8, "WEBP")) return WebpSize(bytes);
   if (bytes.StartWith("P") && content.find_first_of("123456", 1) == 1) return PnmSize(content);
   return std::nullopt;
+}
+
+bool IsTiffOfOtherNumbers(const std::string& content) {
+  const Bytes bytes(content);
+  const std::optional<ByteOrder> order = TiffOrder(bytes);
+  if (!order) return false;
+  constexpr uint32_t kBitsTag = 258, kFormatTag = 339, kUnsigned = 1, kFloat = 3;
+  const uint32_t bits = TiffEntry(kBitsTag, bytes, *order).value_or(1);
+  const uint32_t format = TiffEntry(kFormatTag, bytes, *order).value_or(kUnsigned);
+  return (format == kUnsigned && bits == 32) || (format == kFloat && bits == 16);
 }
 
 bool IsTruncatedJpeg(const std::string& content) {

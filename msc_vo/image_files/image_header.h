@@ -15,6 +15,10 @@ namespace msc_vo {
 /// file.
 std::optional<ImageSize> SizeInHeader(const std::string& bytes);
 
+/// Tests whether a file is a TIFF with one channel of unsigned numbers of 32 bits or floating-point
+/// numbers of 16 bits, which OpenCV does not read.
+bool IsTiffOfOtherNumbers(const std::string& bytes);
+
 /// Tests whether a file is a JPEG without its end, the marker FF D9, which the compressed data
 /// cannot contain. Decoders fill the missing part with grey.
 bool IsTruncatedJpeg(const std::string& bytes);

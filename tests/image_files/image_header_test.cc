@@ -66,6 +66,15 @@ TEST(DecodeImage, RefusesAHeaderThatClaimsMoreThanTheFileCanHold) {
   EXPECT_TRUE(DecodeImage("P5\n16000 16000\n255\n12345", cv::IMREAD_UNCHANGED).empty());
 }
 
+TEST(DecodeImage, RefusesTiffOfNumbersThatOpenCvDoesNotRead) {
+  std::string tiff = Encode(".tiff", CV_32FC1);
+  EXPECT_FALSE(DecodeImage(tiff, cv::IMREAD_UNCHANGED).empty());
+  const size_t format = tiff.find(std::string("\x53\x01\x03\x00\x01\x00\x00\x00\x03", 9));
+  ASSERT_NE(format, std::string::npos);
+  tiff[format + 8] = 1;  // unsigned
+  EXPECT_THROW(DecodeImage(tiff, cv::IMREAD_UNCHANGED), std::runtime_error);
+}
+
 TEST(SizeInHeader, KnowsMarkersOfJpegWithoutALength) {
   // What follows such a marker is the next one, not a length behind which another header is.
   std::string jpeg = Encode(".jpg", CV_8UC1);
