@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@ const std::vector<double> kScales = {1000.0, 5000.0, 5208.0, 6553.5, 256.0, 1000
 // The same of floating-point numbers: from millimetres to 100 m.
 const std::vector<double> kFloatScales = {1000.0, 100.0, 10.0, 1.0, 0.1, 0.01};
 constexpr double kMinValid = 0.2;
+constexpr double kShiftedUnits = 8000.0;  // raw units per metre of millimetres times 8
 
 bool IsUsual(double median) { return median >= kMinMedian && median <= kMaxMedian; }
 
@@ -40,6 +42,20 @@ std::string LikelyScales(double median, const DepthUnits& units) {
     text += (text.empty() ? "" : ", ") + FormatText(format, other, other_median);
   }
   return text;
+}
+
+// Tests whether the raw values are millimetres that were shifted by three bits, as in SUN3D: all
+// are multiples of 8, not all of 16.
+bool AreShifted(const std::vector<float>& depths, const DepthUnits& units) {
+  constexpr size_t kMinValues = 20;  // fewer are multiples by chance
+  std::set<double> raw;
+  for (const float depth : depths) raw.insert(std::round(depth * units.per_metre));
+  const auto are_multiples = [&](double step) {
+    return std::all_of(raw.begin(), raw.end(),
+                       [&](double value) { return std::fmod(value, step) == 0.0; });
+  };
+  return !units.are_floats && raw.size() >= kMinValues && are_multiples(8.0) &&
+         !are_multiples(16.0);
 }
 
 void AddByteOrder(double swapped_ratio, Findings* findings) {
@@ -59,6 +75,15 @@ void AddRange(const std::vector<float>& depths, double valid, const DepthUnits& 
       FormatText("depth: median %.2f m, 90 %% within %.2f to %.2f m, %.0f %% of the pixels valid",
                  median, Quantile(0.05, depths), Quantile(0.95, depths), 100.0 * valid);
   const Measurement measurement{median, "m"};
+  if (AreShifted(depths, units) && std::abs(units.per_metre / kShiftedUnits - 1.0) > 0.1) {
+    findings->push_back(Warning(
+        "depth.scale",
+        FormatText("all raw depth values are multiples of 8: they may be millimetres shifted by "
+                   "three bits, as in SUN3D, with a median depth of %.3f m instead of %.3f m",
+                   median * units.per_metre / kShiftedUnits, median),
+        FormatText("if so, set depth_scale to %.0f", kShiftedUnits), measurement));
+    return;
+  }
   if (IsUsual(median)) {
     findings->push_back(Good("depth.scale", range, measurement));
     return;
