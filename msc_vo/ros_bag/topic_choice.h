@@ -15,7 +15,7 @@ struct ImageTopic {
   std::string name;
   RosImageKind kind = RosImageKind::kOther;
   bool is_compressed = false;
-  std::string encoding;  ///< of the first image, for messages
+  std::string encoding = {};  ///< of the first image, for messages
 };
 
 /// Returns the words of a name in lower case, without numbers at their end:

@@ -82,7 +82,7 @@ struct CameraInfoFields {
   std::string model = "plumb_bob";
   std::vector<double> d = {0, 0, 0, 0, 0};
   uint32_t binning = 0;
-  cv::Rect roi;
+  cv::Rect roi = {};
 };
 
 inline std::string CameraInfoMessage(const CameraInfoFields& info,
