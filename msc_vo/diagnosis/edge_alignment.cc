@@ -36,7 +36,6 @@ constexpr int kMirroredReach = 2;
 constexpr int kCellSize = 4;
 
 cv::Mat Mirror(const cv::Mat& image, Mirroring mirroring) {
-  if (mirroring == Mirroring::kNone) return image;
   cv::Mat mirrored;
   cv::flip(image, mirrored,
            mirroring == Mirroring::kHorizontal ? 1
@@ -134,9 +133,8 @@ ReducedEdges FindReducedEdges(const cv::Mat& gray, const cv::Mat& depth, int wid
   return {image, std::move(edges), std::move(weights)};
 }
 
-EdgeScore ScoreOf(const ReducedEdges& reduced, int reach) {
-  return {reduced.image.step, reach,
-          Correlate(reduced.weights, GradientsOf(reduced.image.gray), reach),
+EdgeScore ScoreOf(const ReducedEdges& reduced, const EdgeGradients& gradients, int reach) {
+  return {reduced.image.step, reach, Correlate(reduced.weights, gradients, reach),
           static_cast<int>(reduced.edges.size())};
 }
 
@@ -164,9 +162,13 @@ double Maximum(const cv::Mat& score) {
   return maximum;
 }
 
-double MirroredScore(const ReducedEdges& reduced, Mirroring mirroring) {
-  return Maximum(Correlate(reduced.weights, GradientsOf(Mirror(reduced.image.gray, mirroring)),
-                           kMirroredReach));
+// The gradients of a mirrored image are the mirrored gradients.
+double MirroredScore(const EdgeWeights& weights, const EdgeGradients& gradients,
+                     Mirroring mirroring) {
+  return Maximum(Correlate(
+      weights,
+      {Mirror(gradients.along_rows, mirroring), Mirror(gradients.along_columns, mirroring)},
+      kMirroredReach));
 }
 
 void AddScore(const EdgeScore& score, EdgeScore* total) {
@@ -243,18 +245,22 @@ std::optional<Eigen::Vector2d> FindFinePeak(const EdgeAlignment& alignment,
 
 }  // namespace
 
-EdgeAlignment AlignEdges(const cv::Mat& gray, const cv::Mat& depth, bool tests_mirroring) {
+EdgeAlignment AlignEdges(const cv::Mat& gray, const cv::Mat& depth, bool with_fine) {
   const ReducedEdges coarse = FindReducedEdges(gray, depth, kCoarseWidth);
+  const EdgeGradients gradients = GradientsOf(coarse.image.gray);
   EdgeAlignment alignment;
-  alignment.coarse = ScoreOf(coarse, kCoarseReach);
-  alignment.fine = depth.cols <= kCoarseWidth
-                       ? CentralPart(alignment.coarse, kFineReach)
-                       : ScoreOf(FindReducedEdges(gray, depth, kFineWidth), kFineReach);
+  alignment.coarse = ScoreOf(coarse, gradients, kCoarseReach);
+  if (depth.cols <= kCoarseWidth) {
+    alignment.fine = CentralPart(alignment.coarse, kFineReach);
+  } else if (with_fine) {
+    const ReducedEdges fine = FindReducedEdges(gray, depth, kFineWidth);
+    alignment.fine = ScoreOf(fine, GradientsOf(fine.image.gray), kFineReach);
+  }
   alignment.cells = CountInCells(coarse.edges, coarse.image.depth.size());
-  if (!tests_mirroring || coarse.edges.empty()) return alignment;
   alignment.mirrored_score[0] = Maximum(CentralPart(alignment.coarse, kMirroredReach).sum);
   for (int m = 1; m < kNumMirrorings; ++m) {
-    alignment.mirrored_score[m] = MirroredScore(coarse, static_cast<Mirroring>(m));
+    alignment.mirrored_score[m] =
+        MirroredScore(coarse.weights, gradients, static_cast<Mirroring>(m));
   }
   return alignment;
 }

@@ -32,7 +32,7 @@ struct EdgeScore {
 /// Scores of an image; those of several images add up.
 struct EdgeAlignment {
   EdgeScore coarse;  ///< at 320 pixels in width, for large shifts
-  EdgeScore fine;    ///< at 640 pixels in width, for the place of the peak
+  EdgeScore fine;    ///< at 640 pixels in width, for the place of the peak; may be empty
   /// CV_8UC2: depth edges along rows and along columns in each cell of 4 x 4 pixels at 320 pixels
   /// in width; of several images the maximum. See NumDistinctEdges().
   cv::Mat cells;
@@ -50,8 +50,8 @@ struct EdgeShift {
 };
 
 /// Compares the edges of a depth image (metres, 0: none) with those of a grey image of the same
-/// size. Computes mirrored_score only if `tests_mirroring`.
-EdgeAlignment AlignEdges(const cv::Mat& gray, const cv::Mat& depth, bool tests_mirroring);
+/// size. `with_fine`: also computes the fine score, which takes most of the time of large images.
+EdgeAlignment AlignEdges(const cv::Mat& gray, const cv::Mat& depth, bool with_fine = true);
 
 /// Adds scores of the same size; an empty sum takes the size of the first.
 void Add(const EdgeAlignment& image, EdgeAlignment* sum);

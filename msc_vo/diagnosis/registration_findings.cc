@@ -14,7 +14,7 @@ namespace msc_vo {
 
 namespace {
 
-// Edge pixels in all images that a verdict needs.
+// Edge pixels in all images that a verdict on a shift needs.
 constexpr int kMinEdges = 2000;
 // Height of the peak over the background for one distinct edge, standard deviations of the
 // gradient; it falls with the square root of their number. Below this the scene has depth edges
@@ -49,7 +49,7 @@ bool AddMirroring(const EdgeAlignment& sum, const EdgeShift& peak, double min_pe
   for (int m = 1; m < kNumMirrorings; ++m) {
     if (sum.mirrored_score[m] > sum.mirrored_score[best]) best = m;
   }
-  const double mirrored = sum.mirrored_score[best] / sum.coarse.num_edges;
+  const double mirrored = sum.mirrored_score[best] / std::max(1, sum.coarse.num_edges);
   if (best == 0 || mirrored < min_peak || mirrored < kMirroredGain * peak.peak) return false;
   findings->push_back(
       Error("registration.mirrored",
@@ -83,7 +83,7 @@ void AddRegistrationFindings(const std::vector<EdgeAlignment>& images, int width
   const int num_edges = sum.coarse.num_edges;
   const int num_distinct = NumDistinctEdges(sum);
   const double min_peak = kMinPeakOfOneEdge / std::sqrt(std::max(1, num_distinct));
-  if (num_edges >= kMinEdges && AddMirroring(sum, peak, min_peak, findings)) return;
+  if (AddMirroring(sum, peak, min_peak, findings)) return;
   if (num_edges < kMinEdges || peak.peak - peak.background < min_peak) {
     findings->push_back(
         Good("registration.shift",

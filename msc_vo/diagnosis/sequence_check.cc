@@ -60,7 +60,8 @@ int SampleIndex(int k, int count, int size) {
   return static_cast<int>(static_cast<int64_t>(k) * (size - 1) / (count - 1));
 }
 
-// Edges and features take longer than the rest and are optional.
+// Features and the fine score of edges take longer than the rest: they are left out without
+// `features`.
 SampleMeasurements MeasureSample(const RgbdDecoder& decoder, int count,
                                  const std::optional<FrameBuilderOptions>& features,
                                  DepthCurveTest* curve) {
@@ -77,9 +78,8 @@ SampleMeasurements MeasureSample(const RgbdDecoder& decoder, int count,
       sample.byte_order.Add(image.recorded_depth.empty() ? image.depth : image.recorded_depth,
                             calibration.depth_scale);
       curve->Add(image.depth);
-      if (!builder) continue;
-      sample.alignments.push_back(AlignEdges(image.gray, image.depth, true));
-      sample.textures.push_back(MeasureTexture(builder->Build(image)));
+      sample.alignments.push_back(AlignEdges(image.gray, image.depth, features.has_value()));
+      if (builder) sample.textures.push_back(MeasureTexture(builder->Build(image)));
     } catch (const std::exception& error) {
       sample.failures.emplace_back(error.what());
     }
@@ -249,6 +249,7 @@ Findings CheckSequenceQuickly(const RgbdDecoder& decoder) {
       MeasureSample(decoder, std::min(kQuickImages, decoder.size()), std::nullopt, &curve);
   DecideCurve(decoder, &curve);
   AddSampleFindings(sample, curve, calibration, &findings);
+  AddRegistrationFindings(sample.alignments, calibration.camera.width, &findings);
   AddGroundTruthStampFindings(index, &findings);
   NameReference(index, &findings);
   findings.erase(
@@ -259,6 +260,23 @@ Findings CheckSequenceQuickly(const RgbdDecoder& decoder) {
     if (!StopsRun(finding)) finding.severity = Severity::kWarning;
   }
   return findings;
+}
+
+bool HasRegisteredEdges(const RgbdDecoder& decoder) {
+  std::vector<EdgeAlignment> alignments;
+  const int count = std::min(kQuickImages, decoder.size());
+  for (int k = 0; k < count; ++k) {
+    try {
+      const RgbdImage image = decoder.Decode(SampleIndex(k, count, decoder.size()));
+      alignments.push_back(AlignEdges(image.gray, image.depth, false));
+    } catch (const UnreadableImage&) {
+      continue;  // reported by the run
+    }
+  }
+  Findings findings;
+  AddRegistrationFindings(alignments, decoder.calibration().camera.width, &findings);
+  // Without a value, there are too few edges.
+  return findings.front().severity == Severity::kGood && findings.front().value.has_value();
 }
 
 }  // namespace msc_vo

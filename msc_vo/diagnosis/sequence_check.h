@@ -29,4 +29,8 @@ Findings CheckSequence(const RgbdDecoder& decoder, const SequenceCheckOptions& o
 /// searched for. Contains warnings and errors only; an error means that no run can succeed.
 Findings CheckSequenceQuickly(const RgbdDecoder& decoder);
 
+/// Whether the depth edges of four images lie on the edges of colour, as those of registered depth
+/// do. False if there are too few of them.
+bool HasRegisteredEdges(const RgbdDecoder& decoder);
+
 }  // namespace msc_vo

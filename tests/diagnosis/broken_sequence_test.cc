@@ -207,6 +207,25 @@ TEST_F(BrokenSequenceTest, FindsDefectsOfRegistration) {
   });
 }
 
+TEST_F(BrokenSequenceTest, FindsMirroredImagesInFewImages) {
+  Recording recording = *recording_;
+  recording.images.resize(kFewImages);
+  for (const bool is_mirrored : {false, true}) {
+    for (Recording::Image& image : recording.images) {
+      image.color = image.color.clone();
+      if (is_mirrored) cv::flip(image.color, image.color, 0);
+    }
+    recording.Write(Path("quick"));
+    SequenceIndex index = OpenSequence(Path("quick"));
+    const Calibration calibration = ResolveCalibration({}, "", &index);
+    const Findings findings = CheckSequenceQuickly(RgbdDecoder(index, calibration));
+    EXPECT_EQ(findings.size(), is_mirrored ? 1u : 0u);
+    if (!is_mirrored) continue;
+    ExpectFinding(findings, Severity::kWarning, "registration.mirrored", Names("top", "bottom"),
+                  "quick");
+  }
+}
+
 TEST_F(BrokenSequenceTest, FindsDefectsOfImages) {
   ExpectError("black", "images.uniform", Names("black"), [](Recording* r) {
     ForAllImages(r, [](Recording::Image* i) { i->color.setTo(2); });

@@ -81,7 +81,7 @@ BoxImage MakeRectangles(const cv::Size& size, int offset, int gap, double noise)
 }
 
 Eigen::Vector2d FoundShift(const BoxImage& image) {
-  return FindPeak(AlignEdges(image.gray, image.depth, false)).shift;
+  return FindPeak(AlignEdges(image.gray, image.depth)).shift;
 }
 
 class EdgeAlignmentTest : public testing::TestWithParam<cv::Size> {};
@@ -144,7 +144,7 @@ EdgeAlignment SumOfImages(int count, int step) {
   EdgeAlignment sum;
   for (int i = 0; i < count; ++i) {
     const cv::Rect view(i * step, i * step, 480, 360);
-    Add(AlignEdges(image.gray(view), image.depth(view), false), &sum);
+    Add(AlignEdges(image.gray(view), image.depth(view)), &sum);
   }
   return sum;
 }

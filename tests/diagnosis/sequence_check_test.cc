@@ -121,6 +121,26 @@ TEST_F(SequenceCheckTest, QuickCheckReportsProblemsOnly) {
               Contains(Is(Severity::kError, "depth.scale", Names("0.004 m", "depth_scale"))));
 }
 
+TEST_F(SequenceCheckTest, HasRegisteredEdgesUnlessDepthIsShiftedOrHasFewEdges) {
+  calibration_.camera = {300.0, 300.0, 159.5, 119.5, 320, 240};
+  const auto has_registered_edges = [&](int shift, int num_boxes) {
+    cv::Mat color(240, 320, CV_8UC1, cv::Scalar(60)), depth(240, 320, CV_16UC1, cv::Scalar(15000));
+    for (int i = 0; i < num_boxes; ++i) {
+      const cv::Rect box(30 + 40 * (i % 7), 20 + 40 * (i / 7), 20, 20);
+      color(box).setTo(200);
+      depth(box + cv::Point(shift, 0)).setTo(7500);
+    }
+    for (int i = 0; i < 6; ++i) {
+      cv::imwrite(Path(std::to_string(i) + ".png"), color);
+      cv::imwrite(Path(std::to_string(i) + "d.png"), depth);
+    }
+    return HasRegisteredEdges(RgbdDecoder(index_, calibration_));
+  };
+  EXPECT_TRUE(has_registered_edges(0, 35));
+  EXPECT_FALSE(has_registered_edges(10, 35));
+  EXPECT_FALSE(has_registered_edges(0, 1));
+}
+
 TEST_F(SequenceCheckTest, ReportsGaps) {
   index_.entries.erase(index_.entries.begin() + 1, index_.entries.begin() + 4);
   EXPECT_THAT(Check(), Contains(Is(Severity::kWarning, "stamps.gaps", Names("1", "0.150 s"))));
