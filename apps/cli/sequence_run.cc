@@ -101,13 +101,13 @@ void RunLoop(const RunArguments& arguments, int num_frames, const InterruptGuard
 }
 
 // Takes the result, also after an error in the last keyframe step.
-void FinishOdometry(Odometry* odometry, SequenceRun* run) {
+void FinishOdometry(bool localizes, Odometry* odometry, SequenceRun* run) {
   try {
-    run->result = odometry->Finish();
+    run->result = odometry->Finish(localizes);
     run->map = odometry->Map();
   } catch (const std::exception& error) {
     Fail(kExitError, error.what(), run);
-    run->result = odometry->Finish();
+    run->result = odometry->Finish(localizes);
     run->map = odometry->Map();
   }
 }
@@ -144,16 +144,10 @@ void CheckLocalization(const std::string& map, const std::optional<int>& first, 
 
 // Summarises the result, and decides whether tracking has failed.
 void SummarizeRun(const RunMap* map, SequenceRun* run) {
-  const bool localizes = map != nullptr && map->localizes();
-  std::optional<int> first;
-  if (localizes) {
-    first = FirstLocalizedFrame(run->result);
-    KeepLocalizedPoses(&run->result);
-  }
   run->summary = Summarize(run->result);
   if (run->exit_code != kExitSuccess) return;
-  if (localizes) {
-    CheckLocalization(map->localize(), first, run);
+  if (map != nullptr && map->localizes()) {
+    CheckLocalization(map->localize(), FirstLocalizedFrame(run->result), run);
   } else if (TrackingFailed(run->summary)) {
     Fail(kExitTrackingFailed, DescribeFailure(run->summary), run);
   }
@@ -223,7 +217,7 @@ SequenceRun RunSequence(const RgbdDecoder& decoder, const Configuration& configu
   FrameLoop loop(decoder, num_frames, arguments.strict, feed.get(), &odometry, progress);
   RunLoop(arguments, num_frames, interrupt, callbacks, cost, &odometry, &loop, &run);
   ReturnFreedMemory();  // for the final bundle adjustment of lines, which is larger than a window
-  FinishOdometry(&odometry, &run);
+  FinishOdometry(callbacks.map != nullptr && callbacks.map->localizes(), &odometry, &run);
   if (callbacks.map != nullptr) SaveMap(callbacks.map, &odometry, &run);
   context.cost = cost.Read();
   context.realtime = feed->Realtime();

@@ -158,9 +158,7 @@ class PyOdometry {
 
   std::shared_ptr<OdometryResult> Finish() {
     return Alone([&] {
-      const auto result = std::make_shared<OdometryResult>(odometry_->Finish());
-      if (num_worlds_) KeepLocalizedPoses(result.get());
-      return result;
+      return std::make_shared<OdometryResult>(odometry_->Finish(num_worlds_.has_value()));
     });
   }
 

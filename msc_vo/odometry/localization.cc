@@ -4,14 +4,15 @@
 #include "msc_vo/odometry/localization.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace msc_vo {
 
 namespace {
 
 // Index of the first frame of a segment whose pose is in the world of an earlier session.
-std::optional<int> FirstFrame(const OdometryResult& result, const Segment& segment) {
-  if (segment.is_earlier_session || !result.segments[segment.world].is_earlier_session) {
+std::optional<int> FirstFrame(const std::vector<Segment>& segments, const Segment& segment) {
+  if (segment.is_earlier_session || !segments[segment.world].is_earlier_session) {
     return std::nullopt;
   }
   // A segment that began in a world that had been joined before has no join of its own.
@@ -29,40 +30,41 @@ int NumEarlierWorlds(const OdometryResult& result) {
 std::optional<int> FirstLocalizedFrame(const OdometryResult& result) {
   std::optional<int> first;
   for (const Segment& segment : result.segments) {
-    const std::optional<int> frame = FirstFrame(result, segment);
+    const std::optional<int> frame = FirstFrame(result.segments, segment);
     if (frame) first = std::min(first.value_or(*frame), *frame);
   }
   return first;
 }
 
-void KeepLocalizedPoses(OdometryResult* result) {
-  const std::optional<int> first = FirstLocalizedFrame(*result);
+void KeepLocalizedPoses(std::vector<Segment>* segments, std::vector<FrameResult>* frames) {
   FrameResult before;
   before.segment = before.world = kNoSegment;
-  for (int i = 0; i < static_cast<int>(result->frames.size()); ++i) {
-    FrameResult& frame = result->frames[i];
+  std::vector<Segment> kept = *segments;
+  for (Segment& segment : kept) {
+    segment.last_frame = segment.first_frame - 1;
+    segment.num_estimated = 0;
+  }
+  for (int i = 0; i < static_cast<int>(frames->size()); ++i) {
+    FrameResult& frame = (*frames)[i];
     std::optional<int> begin;
-    if (frame.segment != kNoSegment) begin = FirstFrame(*result, result->segments[frame.segment]);
+    if (frame.segment != kNoSegment) begin = FirstFrame(*segments, (*segments)[frame.segment]);
     if (!begin || i < *begin) Discard(before, &frame);
     before = frame;
-  }
-  if (!result->segments.empty() && !result->segments[result->map_world].is_earlier_session) {
-    // The map that the run has built elsewhere.
-    result->keyframes.clear();
-    result->points.clear();
-    result->lines.clear();
-    result->axes = {};
-    result->map_world = first ? result->frames[*first].world : 0;
-  }
-  for (Segment& segment : result->segments) segment.num_estimated = 0;
-  for (const FrameResult& frame : result->frames) {
     if (frame.segment == kNoSegment) continue;
-    result->segments[frame.segment].num_estimated += IsEstimated(frame.status) ? 1 : 0;
+    Segment& segment = kept[frame.segment];
+    if (segment.last_frame < segment.first_frame) segment.first_frame = i;
+    segment.last_frame = i;
+    segment.num_estimated += IsEstimated(frame.status) ? 1 : 0;
   }
+  *segments = std::move(kept);
 }
 
 FrameResult KeepLocalizedPose(int num_earlier_worlds, FrameResult frame) {
-  if (frame.world != kNoSegment && frame.world < num_earlier_worlds) return frame;
+  if (frame.world != kNoSegment && frame.world < num_earlier_worlds) {
+    const std::optional<WorldChange>& change = frame.world_changed;
+    if (change && change->old_world >= num_earlier_worlds) frame.world_changed.reset();
+    return frame;
+  }
   FrameResult before;
   before.segment = before.world = kNoSegment;
   Discard(before, &frame);

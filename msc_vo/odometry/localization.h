@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "msc_vo/odometry/odometry.h"
 
@@ -17,8 +18,9 @@ int NumEarlierWorlds(const OdometryResult& result);
 std::optional<int> FirstLocalizedFrame(const OdometryResult& result);
 
 /// Keeps the poses in worlds of earlier sessions, from the first localised frame of each segment
-/// on, for results that are about the place in the map. All other frames become lost.
-void KeepLocalizedPoses(OdometryResult* result);
+/// on, for results that are about the place in the map. All other frames become lost, and belong to
+/// the segment before.
+void KeepLocalizedPoses(std::vector<Segment>* segments, std::vector<FrameResult>* frames);
 
 /// The same for a frame as Odometry::Process() returns it, before it is known whether and where the
 /// run is found later. `num_earlier_worlds`: submaps of Odometry::SetMap().

@@ -21,10 +21,6 @@ FrameResult Localizer::Process(const RgbdImage& image) {
   return KeepLocalizedPose(num_worlds_, odometry_.Process(image));
 }
 
-OdometryResult Localizer::Finish() {
-  OdometryResult result = odometry_.Finish();
-  KeepLocalizedPoses(&result);
-  return result;
-}
+OdometryResult Localizer::Finish() { return odometry_.Finish(true); }
 
 }  // namespace msc_vo

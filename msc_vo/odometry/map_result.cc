@@ -3,6 +3,7 @@
 
 #include "msc_vo/odometry/map_result.h"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <utility>
@@ -15,6 +16,14 @@ MapAxes MakeAxes(const SceneAxes& scene) {
   const AxesEstimator& axes = scene.estimator();
   return {axes.state(), axes.num_refinements(), axes.world_from_axes(), axes.sigma(),
           scene.deviation().scale()};
+}
+
+// Whether a frame is still a keyframe: its pose may have been discarded (KeepLocalizedPoses()).
+bool IsKeyframe(double timestamp, const std::vector<FrameResult>& frames) {
+  const auto frame = std::lower_bound(
+      frames.begin(), frames.end(), timestamp,
+      [](const FrameResult& other, double time) { return other.timestamp < time; });
+  return frame != frames.end() && frame->timestamp == timestamp && frame->is_keyframe;
 }
 
 // Index of the session that added the keyframe; the sessions are in order of their keyframes.
@@ -42,7 +51,9 @@ void AddMap(const Mapper& mapper, SubMapId submap_id, OdometryResult* result) {
   if (submap == nullptr) return;
   const Map& map = submap->map;
   for (const auto& [id, keyframe] : map.keyframes()) {
-    if (map.IsOfEarlierSession(id)) continue;
+    if (map.IsOfEarlierSession(id) || !IsKeyframe(keyframe.frame->timestamp, result->frames)) {
+      continue;
+    }
     result->keyframes.push_back({keyframe.frame->timestamp, keyframe.cam_from_world.Inverse()});
   }
   for (const auto& [id, point] : map.points()) {

@@ -13,8 +13,8 @@
 
 namespace msc_vo {
 
-/// Adds keyframes, landmarks and axes of a submap to the result; nothing if there is no such
-/// submap.
+/// Adds keyframes, landmarks and axes of a submap to the result, whose frames are known; nothing if
+/// there is no such submap.
 void AddMap(const Mapper& mapper, SubMapId submap_id, OdometryResult* result);
 
 /// The planes of a map in its world, with the axes that they are normal to, if axes are known.

@@ -18,6 +18,7 @@
 #include "msc_vo/odometry/gap_filling.h"
 #include "msc_vo/odometry/image_pipeline.h"
 #include "msc_vo/odometry/input_checks.h"
+#include "msc_vo/odometry/localization.h"
 #include "msc_vo/odometry/loop_log.h"
 #include "msc_vo/odometry/loss_cause.h"
 #include "msc_vo/odometry/map_result.h"
@@ -367,7 +368,7 @@ std::optional<MapContents> Odometry::ShareMaps(const std::string& session) {
   return state_->sessions.Share(session, &state_->mapper);
 }
 
-OdometryResult Odometry::Finish() {
+OdometryResult Odometry::Finish(bool only_localized) {
   state_->schedule.Drain();
   OdometryResult result;
   result.frames = state_->results;
@@ -375,13 +376,15 @@ OdometryResult Odometry::Finish() {
   state_->refiner.RefineAll(*state_->mapper.Snapshot(), &poses);
   SetPoses(state_->mapper.atlas(), poses, &result.frames);
   result.segments = state_->segments.Segments(result.frames);
+  if (only_localized) KeepLocalizedPoses(&result.segments, &result.frames);
   SetWorlds(result.segments, &result.frames);
   result.loops = state_->loops.loops();
   FillGaps(result.segments, &result.frames);
   state_->segments.PropagateCovariances(state_->results, &result.frames);
   SetWorldCovariances(state_->mapper, poses, &result.frames);
   result.map_world = LargestWorld(result.segments);
-  AddMap(state_->mapper, state_->segments.SubMapOf(result.map_world), &result);
+  const bool has_map = !only_localized || FirstLocalizedFrame(result);
+  if (has_map) AddMap(state_->mapper, state_->segments.SubMapOf(result.map_world), &result);
   AddEarlierSessions(state_->mapper.atlas(), state_->sessions.earlier(), &result);
   result.noise_scale = state_->mapper.noise().scale();
   result.depth_sensor = state_->images.depth_sensor();

@@ -193,9 +193,10 @@ class Odometry {
 
   /// Waits for the mapper and returns the trajectory relative to the final keyframe poses, with
   /// poses that are estimated again (OdometryOptions::pose_refinement_delay). May be
-  /// called at any time. Throws the exception of a keyframe step if Process() has not; the next
+  /// called at any time. `only_localized`: poses and map are those in worlds of earlier sessions
+  /// (KeepLocalizedPoses()). Throws the exception of a keyframe step if Process() has not; the next
   /// call returns the result.
-  OdometryResult Finish();
+  OdometryResult Finish(bool only_localized = false);
 
   /// Waits for the mapper and returns the present map. Throws as Finish() does.
   MapSnapshotPtr Map();

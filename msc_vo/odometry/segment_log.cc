@@ -96,6 +96,17 @@ int SegmentLog::WorldOf(int segment) const {
   return segment;
 }
 
+SegmentJoin SegmentLog::JoinOf(const std::vector<Move>& moves, Rigid3 cam_from_world) const {
+  auto first = std::find_if(moves.begin(), moves.end(), [this](const Move& move) {
+    return move.join.kept < static_cast<SubMapId>(num_earlier_);
+  });
+  if (first == moves.end()) --first;
+  for (auto move = moves.end(); --move != first;) {
+    cam_from_world = cam_from_world * move->join.moved_from_kept.Inverse();
+  }
+  return Describe(first->frame, first->join, cam_from_world);
+}
+
 std::vector<Segment> SegmentLog::Segments(const std::vector<FrameResult>& frames) const {
   std::vector<Segment> segments;
   for (size_t i = 0; i < entries_.size(); ++i) {
@@ -111,8 +122,7 @@ std::vector<Segment> SegmentLog::Segments(const std::vector<FrameResult>& frames
     }
     segment.world = WorldOf(static_cast<int>(i));
     if (!entry.moves.empty() && !segment.is_earlier_session) {
-      segment.join = Describe(entry.moves.back().frame, entry.moves.back().join,
-                              frames[entry.first_frame].cam_from_world);
+      segment.join = JoinOf(entry.moves, frames[entry.first_frame].cam_from_world);
     }
     segments.push_back(segment);
   }

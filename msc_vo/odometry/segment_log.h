@@ -11,7 +11,8 @@
 
 namespace msc_vo {
 
-/// How the map of a segment came into the world of an older one.
+/// How the map of a segment came into the world of an older one: by its first join with a map of
+/// earlier sessions, without one by its last join.
 struct SegmentJoin {
   int frame = 0;                   ///< index of the keyframe that completed the join
   int num_keyframes = 0;           ///< that agree on the alignment of the two maps
@@ -94,6 +95,8 @@ class SegmentLog {
     std::vector<Move> moves;            // in order of time
   };
 
+  // Of a segment that was moved, and whose first frame has this pose now.
+  SegmentJoin JoinOf(const std::vector<Move>& moves, Rigid3 cam_from_world) const;
   bool has_begun() const { return entries_.size() > num_earlier_; }
   int WorldOf(int segment) const;
 

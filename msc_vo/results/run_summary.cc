@@ -196,10 +196,15 @@ std::string DescribeSegments(const RunSummary& summary) {
 
 std::vector<TimedPose> TrajectoryOf(const OdometryResult& result) {
   std::vector<TimedPose> poses;
-  const int first_segment = NumEarlierWorlds(result);
+  const auto first =
+      std::find_if(result.frames.begin(), result.frames.end(),
+                   [](const FrameResult& frame) { return frame.segment != kNoSegment; });
   for (const FrameResult& frame : result.frames) {
-    const int segment = frame.segment == kNoSegment ? first_segment : frame.segment;
-    poses.push_back({frame.timestamp, frame.cam_from_world.Inverse(), IsEstimated(frame.status),
+    const bool precedes_first = frame.segment == kNoSegment && first != result.frames.end();
+    const FrameResult& shown = precedes_first ? *first : frame;
+    const int segment =
+        shown.segment == kNoSegment ? NumEarlierWorlds(result) : shown.segment;  // none has begun
+    poses.push_back({frame.timestamp, shown.cam_from_world.Inverse(), IsEstimated(frame.status),
                      segment, WorldOf(result, segment)});
   }
   return poses;

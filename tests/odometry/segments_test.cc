@@ -140,6 +140,24 @@ TEST_F(SegmentsTest, BeginsInAnotherRoomAndJoinsWhenItReturns) {
   EXPECT_GT((*first.covariance)(5, 5), 1e-4);
 }
 
+// Most images show a room that is not in the map.
+TEST_F(SegmentsTest, ALocalizedRunKeepsTheMapThatItWasFoundIn) {
+  Append(*images_, 0, 19);
+  Odometry first(QuickOptions(), camera_, LensDistortion());
+  for (const RgbdImage& image : sequence_) first.Process(image);
+  const size_t num_points = first.Finish().points.size();
+  for (int visit = 0; visit < 2; ++visit) Append(*other_room_, 0, 29);
+  Odometry odometry(QuickOptions(), camera_, LensDistortion());
+  odometry.SetMap(*first.ShareMaps("first"));
+  for (const RgbdImage& image : sequence_) odometry.Process(image);
+  ASSERT_EQ(odometry.Finish().map_world, 2);
+  const OdometryResult result = odometry.Finish(true);
+  EXPECT_EQ(result.map_world, 0);
+  EXPECT_GT(result.points.size(), num_points / 2);
+  ASSERT_FALSE(result.keyframes.empty());
+  EXPECT_LT(result.keyframes.back().timestamp, sequence_[20].timestamp);
+}
+
 TEST_F(SegmentsTest, AreTheSameAtAnyThreadCount) {
   Append(*images_, 0, 29);
   Append(*other_room_, 0, 29);

@@ -265,9 +265,8 @@ TEST_F(SessionsTest, NamesTheKeyframesOfEarlierSessions) {
 
 TEST_F(SessionsTest, KeepsPosesInTheMapOnly) {
   Odometry odometry(Options(), camera_, LensDistortion());
-  OdometryResult result = Run(100.0, &odometry);
-  const int first = FirstLocalizedFrame(result).value();
-  KeepLocalizedPoses(&result);
+  const int first = FirstLocalizedFrame(Run(100.0, &odometry)).value();
+  const OdometryResult result = odometry.Finish(true);
   EXPECT_GT(first, 0);
   for (int i = 0; i < kNumFrames - kFirst; ++i) {
     EXPECT_EQ(IsEstimated(result.frames[i].status), i >= first) << i;
@@ -275,6 +274,7 @@ TEST_F(SessionsTest, KeepsPosesInTheMapOnly) {
   }
   EXPECT_LT(LargestDistance(result, static_cast<size_t>(first)), 0.01);
   EXPECT_EQ(result.segments[1].num_estimated, kNumFrames - kFirst - first);
+  EXPECT_GE(result.keyframes.at(0).timestamp, result.frames[first].timestamp);
 }
 
 TEST_F(SessionsTest, KeepsNoPoseOfAnUnknownPlace) {
@@ -287,16 +287,16 @@ TEST_F(SessionsTest, KeepsNoPoseOfAnUnknownPlace) {
     EXPECT_EQ(frame.world, 1);
     EXPECT_FALSE(IsEstimated(KeepLocalizedPose(1, frame).status));
   }
-  OdometryResult result = odometry.Finish();
+  const OdometryResult result = odometry.Finish();
   EXPECT_EQ(result.map_world, 1);
   EXPECT_FALSE(FirstLocalizedFrame(result));
   EXPECT_FALSE(result.points.empty());
   const std::optional<MapContents> both = odometry.ShareMaps("second");
   ASSERT_TRUE(both);
   EXPECT_EQ(both->submaps.size(), 2u);
-  KeepLocalizedPoses(&result);
-  for (const FrameResult& frame : result.frames) EXPECT_FALSE(IsEstimated(frame.status));
-  EXPECT_TRUE(result.points.empty());
+  const OdometryResult kept = odometry.Finish(true);
+  for (const FrameResult& frame : kept.frames) EXPECT_FALSE(IsEstimated(frame.status));
+  EXPECT_TRUE(kept.points.empty() && !result.planes.empty() && kept.planes.empty());
 }
 
 TEST_F(SessionsTest, LocalizerGivesPosesInTheMapOnly) {

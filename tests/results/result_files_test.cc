@@ -209,6 +209,22 @@ TEST_F(ResultFilesTest, WritesSegmentsAndMarksPosesBeforeThem) {
   EXPECT_EQ(joined["joined"]["sigma_translation"], 0.02);
 }
 
+// The run was found in world 0 of an earlier session, in its second segment.
+TEST_F(ResultFilesTest, FramesBeforeTheFirstSegmentHaveItsFirstPose) {
+  OdometryResult result = Result();
+  result.segments = {{0, -1, 0, 0}, {0, -1, 0, 1}, {2, 4, 3, 0}};
+  result.segments[0].is_earlier_session = true;
+  for (int i = 0; i < 5; ++i) result.frames[i].segment = i < 2 ? kNoSegment : 2;
+  const std::vector<TimedPose> poses = TrajectoryOf(result);
+  ASSERT_EQ(poses.size(), 5u);
+  for (const TimedPose& pose : poses) {
+    EXPECT_EQ(pose.segment, 2);
+    EXPECT_EQ(pose.world, 0);
+  }
+  EXPECT_EQ(poses[0].timestamp, result.frames[0].timestamp);
+  EXPECT_EQ(poses[1].world_from_cam.params, poses[2].world_from_cam.params);
+}
+
 TEST_F(ResultFilesTest, SaysByHowMuchLoopsHaveCorrected) {
   OdometryResult result = Result();
   const auto table = [&] { return FormatRunTable(Summarize(result), {}, "out"); };
