@@ -15,7 +15,7 @@ std::shared_ptr<const Map> Share(SubMap* submap) {
 }
 
 SavedSubMap ToSave(SubMap* submap) {
-  return {submap->id, submap->map.Share(), submap->axes.Estimate(), submap->noise.scale(),
+  return {submap->id, submap->map.Share(), submap->axes.Saved(), submap->noise.scale(),
           submap->planes.Save(submap->map)};
 }
 

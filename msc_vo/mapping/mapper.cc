@@ -223,12 +223,12 @@ MapSnapshotPtr Mapper::Snapshot() {
 void Mapper::ApplyCalibration(KeyframeId newest) {
   atlas_.ChangeAll([this](SubMap* submap) {
     calibration_.ChangeMap(&submap->map);
+    submap->axes.Reset();
     // The calibration of earlier sessions is kept.
     const bool is_of_earlier_session =
         !submap->map.keyframes().empty() &&
         submap->map.IsOfEarlierSession(submap->map.keyframes().back().first);
     if (is_of_earlier_session) return;
-    submap->axes = SceneAxes(options_.axes);
     submap->noise = NoiseEstimator(options_.noise);
     submap->planes.RemoveKeyframesOfThisRun(submap->map);
   });

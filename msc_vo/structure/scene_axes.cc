@@ -62,6 +62,17 @@ std::optional<int> AxisOfPlane(const AxesEstimate& axes, const Plane& plane) {
   return angle <= kMaxAxisAngle ? std::optional<int>(axis) : std::nullopt;
 }
 
+void SceneAxes::Restore(const AxesEstimate& axes) {
+  restored_ = axes;
+  if (options_.enabled) estimator_.Restore(axes.world_from_axes, axes.sigma);
+}
+
+void SceneAxes::Reset() {
+  const std::optional<AxesEstimate> restored = restored_;
+  *this = SceneAxes(options_);
+  if (restored) Restore(*restored);
+}
+
 void SceneAxes::Update(const Map& map, KeyframeId keyframe,
                        const std::vector<AxisEvidence>& normals) {
   if (!options_.enabled) return;

@@ -39,11 +39,11 @@ class SceneAxes {
  public:
   explicit SceneAxes(const SceneAxesOptions& options) : options_(options) {}
 
-  /// Begins with the axes of an earlier run. No effect if axes are disabled. The deviation of lines
-  /// is learnt again.
-  void Restore(const AxesEstimate& axes) {
-    if (options_.enabled) estimator_.Restore(axes.world_from_axes, axes.sigma);
-  }
+  /// Begins with the axes of an earlier run. If axes are disabled, they are kept for Saved() only.
+  /// The deviation of lines is learnt again.
+  void Restore(const AxesEstimate& axes);
+  /// Forgets what this run has estimated.
+  void Reset();
   /// Call after `keyframe` was added to the map. `normals`: its surface normals, camera frame;
   /// needed only while there are no axes.
   void Update(const Map& map, KeyframeId keyframe, const std::vector<AxisEvidence>& normals);
@@ -61,14 +61,18 @@ class SceneAxes {
   std::optional<int> AxisOf(const LineLandmark& line) const;
   /// The axes; std::nullopt until they are found.
   std::optional<AxesEstimate> Estimate() const;
+  /// The axes for later runs: those of the earlier run until this one has estimated directions.
+  std::optional<AxesEstimate> Saved() const {
+    return directions_.empty() && restored_ ? restored_ : Estimate();
+  }
   const AxesEstimator& estimator() const { return estimator_; }
   const DeviationEstimator& deviation() const { return deviation_; }
 
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [options, axes_estimator, deviation, directions] = *this;  // all members
-    archive(axes_estimator, deviation, directions);
+    auto& [options, restored, axes_estimator, deviation, directions] = *this;  // all members
+    archive(restored, axes_estimator, deviation, directions);
   }
 
  private:
@@ -79,6 +83,7 @@ class SceneAxes {
   void Refine();
 
   SceneAxesOptions options_;
+  std::optional<AxesEstimate> restored_;  // of an earlier run
   AxesEstimator estimator_;
   DeviationEstimator deviation_;
   std::map<LandmarkId, DirectionEstimate> directions_;  // as the last window of each line had them

@@ -132,6 +132,7 @@ TEST_F(AtlasTest, BeginsWithTheMapsOfEarlierSessions) {
   ASSERT_EQ(saved.size(), 2u);
   AxesEstimate axes;
   axes.sigma = 1e-3;
+  axes.deviation = 2e-3;
   saved[1].axes = axes;
   saved[1].noise_scale = {0.5, 1.5, 1.0};
   next.BeginWith(std::move(saved));
@@ -141,6 +142,7 @@ TEST_F(AtlasTest, BeginsWithTheMapsOfEarlierSessions) {
   EXPECT_TRUE(next.Find(1)->axes.Estimate());
   EXPECT_DOUBLE_EQ(next.Find(1)->noise.scale().line_pixel, 1.5);
   EXPECT_DOUBLE_EQ(next.Find(1)->noise.scale().point_depth, 0.5);
+  EXPECT_EQ(next.ShareSubMaps()[1].axes->deviation, 2e-3);
   const Ids ids = Fill(&next.current().map);
   EXPECT_GT(ids.first, new_.second);
   EXPECT_GT(ids.point, new_.line);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -291,6 +292,30 @@ TEST(MapperCalibration, BringsInactiveMapsUpToDate) {
   ASSERT_EQ(maps_before.size(), 2u);
   EXPECT_EQ(maps_before[0], before->inactive_maps[0]);
   EXPECT_EQ(maps_before[1]->FindKeyframe(2)->frame->intrinsics, packets[0].frame->intrinsics);
+}
+
+// The first three keyframes are found in the map of the earlier session, which has the right
+// calibration, before that of the run is corrected.
+TEST(MapperCalibration, KeepsTheAxesOfTheEarlierSessionThatTheMapWasJoinedWith) {
+  CalibratingMapper earlier(S::Vector::Zero());
+  for (int i = 0; i < 3; ++i) earlier.Process(earlier.NextPacketWithoutImage());
+  std::vector<SavedSubMap> saved = earlier.mapper().ShareSubMaps();
+  saved[0].axes = AxesEstimate{Eigen::Quaterniond::Identity(), 0.001, 0.002};
+  const Rigid3 reference = saved[0].map.CamFromWorld(0);
+  CalibratingMapper run(With(S::kK1, -0.1));
+  run.mapper().BeginWith(std::move(saved), {}, run.present()->camera);
+  for (int i = 0; i < 3; ++i) {
+    KeyframePacket packet = run.NextPacketWithoutImage();
+    packet.covariance = 1e-3 * PoseCovariance::Identity();
+    packet.revisit = Revisit{
+        0, packet.cam_from_reference * reference.Inverse(), 1e-3 * PoseCovariance::Identity(), {}};
+    run.Process(packet);
+  }
+  ASSERT_EQ(run.mapper().atlas().current().id, 0);
+  run.ProcessUntilChange(3);
+  const std::optional<AxesEstimate> axes = run.mapper().ShareSubMaps().at(0).axes;
+  ASSERT_TRUE(axes);
+  EXPECT_TRUE(axes->world_from_axes.isApprox(Eigen::Quaterniond::Identity(), 1e-3));
 }
 
 TEST(MapperCalibration, MeasuresDepthsOfInactiveMapsIfTheirImagesAreKept) {

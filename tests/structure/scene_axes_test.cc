@@ -119,6 +119,27 @@ TEST(SceneAxes, CanBeDisabled) {
   SceneAxes axes(options);
   axes.Update(MakeMap(&world, 7), 6, {});
   EXPECT_EQ(axes.estimator().state(), AxesState::kNone);
+  axes.Restore({Eigen::Quaterniond::Identity(), 0.001, 0.002});
+  EXPECT_FALSE(axes.Estimate());
+  ASSERT_TRUE(axes.Saved());
+  EXPECT_EQ(axes.Saved()->sigma, 0.001);
+}
+
+TEST(SceneAxes, SavesTheAxesOfTheRunBeforeUntilItHasItsOwn) {
+  SyntheticFrames world{SyntheticFrames::Options()};
+  const Map map = MakeMap(&world, 7);
+  const AxesEstimate earlier{Eigen::Quaterniond(SyntheticFrames::CamFromWorld(0).rotation()), 0.001,
+                             0.002};
+  SceneAxes axes{SceneAxesOptions()};
+  axes.Restore(earlier);
+  axes.Update(map, 6, {});
+  EXPECT_EQ(axes.Saved()->deviation, 0.002);
+  axes.Learn(map, MakeWindow(map));
+  EXPECT_EQ(axes.Saved()->deviation, axes.deviation().scale());
+  EXPECT_NE(axes.Saved()->deviation, 0.002);
+  axes.Reset();
+  EXPECT_EQ(axes.Saved()->deviation, 0.002);
+  EXPECT_TRUE(axes.Estimate()->world_from_axes.isApprox(earlier.world_from_axes));
 }
 
 }  // namespace
