@@ -3,37 +3,17 @@
 
 #include "apps/cli/exported_features.h"
 
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
 #include "apps/cli/overlay_video.h"
 #include "apps/cli/run_map.h"
-#include "apps/cli/sequence_arguments.h"
 #include "msc_vo/exports/recorded_run.h"
 #include "msc_vo/image_files/opencv_codecs.h"
 #include "msc_vo/map_file/map_reader.h"
 #include "msc_vo/results/tracked_features.h"
 
 namespace msc_vo {
-
-namespace {
-
-struct KeyframeRange {
-  KeyframeId first = 0, end = 0;
-};
-
-// The keyframes of the newest session of a sequence; none: there is no session of it.
-KeyframeRange FindSession(const std::vector<MapSession>& sessions, const std::string& sequence) {
-  KeyframeId end = std::numeric_limits<KeyframeId>::max();
-  for (auto session = sessions.rbegin(); session != sessions.rend(); ++session) {
-    if (IsSessionOf(session->name, SequenceName(sequence))) return {session->first_keyframe, end};
-    end = session->first_keyframe;
-  }
-  return {};
-}
-
-}  // namespace
 
 ExportedFeatures::ExportedFeatures(const std::string& map_file, const std::string& sequence,
                                    RgbdDecoder images)
@@ -46,7 +26,7 @@ ExportedFeatures::ExportedFeatures(const std::string& map_file, const std::strin
   for (const SavedSubMap& submap : contents_.submaps) {
     for (const auto& [id, keyframe] : submap.map.keyframes()) {
       const auto image = stamps.find(Microseconds(keyframe.frame->timestamp));
-      if (id < session.first || id >= session.end || image == stamps.end()) continue;
+      if (!session.Contains(id) || image == stamps.end()) continue;
       keyframes_[image->first] = {&submap, &keyframe, image->second};
     }
   }

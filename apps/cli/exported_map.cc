@@ -17,6 +17,7 @@
 #include "apps/cli/exported_images.h"
 #include "apps/cli/map_input.h"
 #include "apps/cli/output_file.h"
+#include "apps/cli/run_map.h"
 #include "msc_vo/exports/colmap_model.h"
 #include "msc_vo/exports/map_export.h"
 #include "msc_vo/text/files.h"
@@ -43,6 +44,32 @@ SavedSubMap LargestSubMap(const std::string& file, MapContents* contents) {
   return std::move(*largest);
 }
 
+// Leaves the keyframes of the newest session with the sequence: time stamps of others say nothing
+// about its images.
+void KeepSession(const RunExport& arguments, MapContents* contents) {
+  if (arguments.sequence.directory.empty() || contents->sessions.size() == 1) return;
+  const KeyframeRange session = FindSession(contents->sessions, arguments.sequence.directory);
+  std::vector<SavedSubMap> kept;
+  for (SavedSubMap& submap : contents->submaps) {
+    std::vector<KeyframeId> others;
+    KeyframeId own = kNoId;
+    for (const auto& [id, keyframe] : submap.map.keyframes()) {
+      if (session.Contains(id)) {
+        own = id;
+      } else {
+        others.push_back(id);
+      }
+    }
+    if (own == kNoId) continue;
+    for (const KeyframeId id : others) submap.map.RemoveKeyframe(id, own);
+    kept.push_back(std::move(submap));
+  }
+  contents->submaps = std::move(kept);
+  if (!contents->submaps.empty()) return;
+  throw std::runtime_error(arguments.map + ": has no keyframe of " + arguments.sequence.directory +
+                           "; without --sequence, the images of all sessions are named by numbers");
+}
+
 // Names the image of a keyframe by the sequence, if that is given, or else by its number.
 std::function<std::string(const Keyframe&)> ImageNames(const RunExport& arguments) {
   if (arguments.sequence.directory.empty()) {
@@ -63,8 +90,8 @@ std::function<std::string(const Keyframe&)> ImageNames(const RunExport& argument
         [&](const SequenceEntry& a, const SequenceEntry& b) { return delay(a) < delay(b); });
     if (delay(*nearest) > kMaxPoseDelay) {
       throw std::runtime_error(FormatText(
-          "%s: has no image of the keyframe at %.6f s; a map of several sequences is exported "
-          "without --sequence",
+          "%s: has no image of the keyframe at %.6f s; give the sequence of the map, or none: "
+          "images are then named by numbers",
           directory.c_str(), keyframe.frame->timestamp));
     }
     if (keyframe.frame->camera.width != decoder->calibration().camera.width) {
@@ -109,6 +136,7 @@ void WriteMapExport(const RunExport& arguments) {
   }
   CheckMapExport(arguments);
   MapContents contents = LoadKeyframes(arguments.map);
+  if (arguments.format == "colmap") KeepSession(arguments, &contents);
   const SavedSubMap submap = LargestSubMap(arguments.map, &contents);
   if (arguments.format == "g2o") {
     WriteFile(arguments.output, FormatG2o(submap, contents.loops));

@@ -7,12 +7,14 @@
 #include <chrono>
 #include <ctime>
 #include <exception>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "apps/cli/command_log.h"
 #include "apps/cli/map_input.h"
+#include "apps/cli/sequence_arguments.h"
 #include "msc_vo/logging/logger.h"
 #include "msc_vo/map_file/map_images.h"
 #include "msc_vo/matching/local_map.h"
@@ -92,8 +94,14 @@ std::string NewSessionName(const std::string& sequence) {
   return sequence + FormatText(", %s.%03d UTC", text, static_cast<int>(milliseconds));
 }
 
-bool IsSessionOf(const std::string& name, const std::string& sequence) {
-  return name.substr(0, name.rfind(", ")) == sequence;
+KeyframeRange FindSession(const std::vector<MapSession>& sessions, const std::string& sequence) {
+  KeyframeId end = std::numeric_limits<KeyframeId>::max();
+  for (auto session = sessions.rbegin(); session != sessions.rend(); ++session) {
+    const std::string name = session->name.substr(0, session->name.rfind(", "));
+    if (name == SequenceName(sequence)) return {session->first_keyframe, end};
+    end = session->first_keyframe;
+  }
+  return {};
 }
 
 RunMap::RunMap(const MapArguments& arguments, const std::string& session, double interval,

@@ -6,6 +6,10 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "tests/apps/command_process.h"
 #include "tests/support/message_matchers.h"
@@ -310,6 +314,23 @@ TEST_F(ExportCommandTest, ReplayWritesTheSameBytes) {
     EXPECT_TRUE(ReadFile(Path("a." + format + file)) == ReadFile(Path("b." + format + file)))
         << format;
   }
+}
+
+// Both sessions have images of the same times and names.
+TEST_F(ExportCommandTest, NamesTheImagesOfTheSessionOfTheSequence) {
+  std::filesystem::copy_file(Path("x.map"), Path("two.map"));
+  Run({"synthesize", Path("y"), "--frames", "12", "--width", "160", "--path", "2"});
+  Run({"replay", Path("y"), "--output", Path("second"), "--map", Path("two.map"), "--quiet",
+       "--export", "colmap=" + Path("m")});
+  std::istringstream words(ReadFile(Path("m/images.txt")));
+  std::vector<std::string> names;
+  for (std::string word; words >> word;) {
+    if (word.rfind("rgb/", 0) == 0) names.push_back(word);
+  }
+  EXPECT_EQ(names.size(), ReadTrajectoryFile(Path("second/keyframes.txt")).poses.size());
+  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
+  EXPECT_THAT(Run({"export", Path("two.map"), "colmap", Path("n"), "--sequence", Path("z")}, 1),
+              Names(Path("z")));
 }
 
 TEST_F(ExportCommandTest, ReplayFailsBeforeTheRun) {
