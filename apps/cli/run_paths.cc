@@ -46,9 +46,10 @@ bool AreApart(const std::string& a, const std::string& b) {
   return true;
 }
 
+// Whether a path is that of a folder, or lies in it.
 bool IsInFolder(const std::string& path, const std::string& folder) {
-  for (std::filesystem::path parent = std::filesystem::absolute(path).parent_path();
-       parent != parent.root_path(); parent = parent.parent_path()) {
+  for (std::filesystem::path parent = std::filesystem::absolute(path); parent != parent.root_path();
+       parent = parent.parent_path()) {
     if (AreSameFile(parent.string(), folder)) return true;
   }
   return false;
@@ -73,7 +74,7 @@ void RefuseSharedPaths(const ReplayArguments& arguments, const SequenceIndex& se
     }
     const std::string checkpoint = CheckpointFolder(output);
     if (IsInFolder(files[i].path, checkpoint)) {
-      throw std::runtime_error(files[i].option + ": lies in " + checkpoint +
+      throw std::runtime_error(files[i].option + ": is or lies in " + checkpoint +
                                ", the folder of the checkpoints; give another path");
     }
   }

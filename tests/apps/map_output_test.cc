@@ -96,7 +96,8 @@ TEST_F(MapOutputTest, RefusesToWriteOverAMap) {
 }
 
 TEST_F(MapOutputTest, RefusesToCreateAMapThatWouldBeWrittenOver) {
-  for (const char* name : {"out/summary.json", "out/map.ply.partial", "out/checkpoint/a.map"}) {
+  for (const char* name :
+       {"out/summary.json", "out/map.ply.partial", "out/checkpoint", "out/checkpoint/a.map"}) {
     ExpectRefused({"--map", Path(name)}, "--map");
     EXPECT_FALSE(HasEntry(Path(name)));
   }

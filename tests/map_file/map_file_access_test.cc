@@ -105,6 +105,23 @@ TEST_F(MapFileAccessTest, RefusesAtOnceToWriteWhatIsReadOnly) {
   }
 }
 
+TEST_F(MapFileAccessTest, SaysThatAFileIsGone) {
+  MapWriter writer(Path("a.map"));
+  for (const int num_written : {0, 1}) {
+    for (int i = 0; i < num_written; ++i) writer.Write(AsContents(random_.Make(2)));
+    fs::rename(Path("a.map"), Path("b.map"));
+    try {
+      writer.Write(AsContents(random_.Make(3)));
+      ADD_FAILURE() << num_written;
+    } catch (const WriteError& error) {
+      ADD_FAILURE() << error.what();
+    } catch (const std::runtime_error& error) {
+      EXPECT_THAT(error.what(), Names(Path("a.map"), "removed"));
+    }
+    fs::rename(Path("b.map"), Path("a.map"));
+  }
+}
+
 TEST_F(MapFileAccessTest, SaysThatAFileMayNotGrow) {
   const std::string file = Path("home.map");
   SaveMap(file, AsContents(random_.Make(2)));

@@ -63,6 +63,12 @@ void GetVertices(BlobReader* blob, Vertices* vertices) {
   }
 }
 
+// A hull as GetPlane() returns it: rounding may put a vertex onto an edge.
+ConvexPolygon AsRead(ConvexPolygon hull) {
+  for (Eigen::Vector2d& vertex : hull) vertex = vertex.cast<float>().cast<double>();
+  return ConvexHull(std::move(hull));
+}
+
 // Whether a matrix can be the mean of b b^T of rays b = (x / z, y / z, 1).
 bool IsMeanSquareRay(const Eigen::Matrix3d& matrix) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(matrix, Eigen::EigenvaluesOnly);
@@ -170,7 +176,7 @@ std::string EncodePlanes(const std::vector<PlaneFeature>& planes) {
     Put(plane.covariance, &blob);
     Put(plane.mean_square_ray, &blob);
     blob.Varint(plane.num_pixels);
-    PutVertices(plane.hull, &blob);
+    PutVertices(AsRead(plane.hull), &blob);
   }
   return blob.bytes();
 }

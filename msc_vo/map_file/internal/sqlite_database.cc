@@ -230,6 +230,16 @@ int64_t SqliteDatabase::Integer(const std::string& sql) const {
   return value;
 }
 
+// SQLite checks it with the first transaction only, as the journal remains open.
+void SqliteDatabase::RefuseIfMoved() const {
+  int has_moved = 0;
+  sqlite3_file_control(database_.get(), nullptr, SQLITE_FCNTL_HAS_MOVED, &has_moved);
+  if (has_moved == 0) return;
+  throw std::runtime_error(path_ +
+                           ": cannot be written, because it has been moved, removed or replaced "
+                           "since it was opened; leave it until the run has ended");
+}
+
 void SqliteDatabase::RollBack() const {
   // Fails if an error has ended the transaction already.
   if (sqlite3_get_autocommit(database_.get()) == 0) {

@@ -67,6 +67,7 @@ class SqliteDatabase {
   /// Calls `write` in one transaction, which is rolled back if it throws.
   template <typename Write>
   void Transaction(const Write& write) const {
+    RefuseIfMoved();
     Execute("BEGIN IMMEDIATE");
     try {
       write();
@@ -78,6 +79,7 @@ class SqliteDatabase {
   }
 
  private:
+  void RefuseIfMoved() const;
   void RollBack() const;
 
   struct Close {
