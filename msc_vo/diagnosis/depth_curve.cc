@@ -7,7 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <optional>
-#include <utility>
+#include <vector>
 
 #include "msc_vo/diagnosis/quantile.h"
 
@@ -23,6 +23,10 @@ constexpr int kPatchSizes[] = {12, 24, 40};
 // Standard deviation of rounding to whole raw units.
 constexpr double kRounding = 0.3;
 
+// Steepest slope of a patch, relative to its value: of depth, an incidence of 79 degrees. Beyond,
+// it is likely a depth edge that a stereo matcher has smoothed, whose two halves bend.
+constexpr double kMaxSlope = 5.0;
+
 // A patch counts if the two curves differ by so many standard deviations of its measurement. It
 // supports the curve that it is nearer to than this ratio of their difference.
 constexpr double kMinSigmas = 4.0;
@@ -32,6 +36,8 @@ constexpr double kTolerance = 0.25;
 // 0.4 times as many patches support another curve as depth, see docs/lab/depth_curve.md.
 constexpr int kMinVotes = 10;
 constexpr int kMinRatio = 2;
+// Fewest places in the image whose patches support the curve.
+constexpr int kMinPlaces = 10;
 // A curve with a parameter must gain so much over inverse depth, which has none.
 constexpr double kMinGain = 1.2;
 
@@ -46,6 +52,8 @@ constexpr double kLogScales[] = {0.2, 0.25, 0.3, 0.4};
 // close that the bend of a lens between two of them is within kTolerance of one.
 constexpr double kLenses[] = {-0.25, -0.18, -0.13, -0.09, -0.06, -0.04, 0.04, 0.06, 0.09,
                               0.13,  0.18,  0.25,  0.33,  0.43,  0.55,  0.68, 0.82};
+
+using PatchesByPlace = std::vector<std::vector<SurfacePatch>>;
 
 // What a patch measures if the values are a function of depth.
 using Prediction = std::function<double(const SurfacePatch&)>;
@@ -66,37 +74,47 @@ Prediction DepthBehindLens(DepthCurve curve, double k) {
   return [k](const SurfacePatch& patch) { return patch.BendOfLens(k); };
 }
 
-// Numbers of patches that agree with the first and with the second prediction. Only patches count
-// whose measurement can tell the two apart.
-std::pair<int, int> Compare(const std::vector<SurfacePatch>& patches, DepthCurve curve,
-                            const Prediction& first, const Prediction& second) {
+// Numbers of patches that agree with the first and with the second prediction, and of places with
+// the first ones. Only patches count whose measurement can tell the two apart.
+struct Support {
+  int first = 0;
+  int second = 0;
+  int first_places = 0;
+};
+
+Support Compare(const PatchesByPlace& patches, DepthCurve curve, const Prediction& first,
+                const Prediction& second) {
   const bool is_bowl = curve == DepthCurve::kRayLength;
-  std::pair<int, int> support{0, 0};
-  for (const SurfacePatch& patch : patches) {
-    const double measured = is_bowl ? patch.bowl : patch.bend;
-    const double of_first = first(patch);
-    const double of_second = second(patch);
-    const double difference = std::abs(of_first - of_second);
-    if (!(difference > kMinSigmas * (is_bowl ? patch.bowl_sigma : patch.bend_sigma))) continue;
-    support.first += std::abs(measured - of_first) < kTolerance * difference;
-    support.second += std::abs(measured - of_second) < kTolerance * difference;
+  Support support;
+  for (const std::vector<SurfacePatch>& place : patches) {
+    const int before = support.first;
+    for (const SurfacePatch& patch : place) {
+      const double measured = is_bowl ? patch.bowl : patch.bend;
+      const double of_first = first(patch);
+      const double of_second = second(patch);
+      const double difference = std::abs(of_first - of_second);
+      if (!(difference > kMinSigmas * (is_bowl ? patch.bowl_sigma : patch.bend_sigma))) continue;
+      support.first += std::abs(measured - of_first) < kTolerance * difference;
+      support.second += std::abs(measured - of_second) < kTolerance * difference;
+    }
+    support.first_places += support.first > before;
   }
   return support;
 }
 
-DepthCurveTest::Votes CountVotes(const std::vector<SurfacePatch>& patches,
-                                 const Hypothesis& hypothesis) {
-  const auto [num_curve, num_depth] = Compare(patches, hypothesis.curve, hypothesis.predict,
-                                              DepthBehindLens(hypothesis.curve, 0.0));
-  return {hypothesis.curve, num_curve, num_depth, hypothesis.origin, false};
+DepthCurveTest::Votes CountVotes(const PatchesByPlace& patches, const Hypothesis& hypothesis) {
+  const Support support = Compare(patches, hypothesis.curve, hypothesis.predict,
+                                  DepthBehindLens(hypothesis.curve, 0.0));
+  return {hypothesis.curve,     support.first,     support.second,
+          support.first_places, hypothesis.origin, false};
 }
 
 // Whether depth behind some undescribed lens explains the patches as well, or nearly so.
-bool MayBeLens(const std::vector<SurfacePatch>& patches, const Hypothesis& hypothesis) {
+bool MayBeLens(const PatchesByPlace& patches, const Hypothesis& hypothesis) {
   return std::any_of(std::begin(kLenses), std::end(kLenses), [&](double k) {
-    const auto [num_curve, num_lens] = Compare(patches, hypothesis.curve, hypothesis.predict,
-                                               DepthBehindLens(hypothesis.curve, k));
-    return !Proves(num_curve, num_lens);
+    const Support support = Compare(patches, hypothesis.curve, hypothesis.predict,
+                                    DepthBehindLens(hypothesis.curve, k));
+    return !Proves(support.first, support.second);
   });
 }
 
@@ -105,9 +123,11 @@ Hypothesis InverseDepth() {
 }
 
 // Every curve other than depth; those with a parameter once for each value.
-std::vector<Hypothesis> CurvesFor(const std::vector<SurfacePatch>& patches) {
+std::vector<Hypothesis> CurvesFor(const PatchesByPlace& patches) {
   std::vector<double> values;
-  for (const SurfacePatch& patch : patches) values.push_back(patch.value);
+  for (const std::vector<SurfacePatch>& place : patches) {
+    for (const SurfacePatch& patch : place) values.push_back(patch.value);
+  }
   const double largest = *std::max_element(values.begin(), values.end());
   const double median = Median(std::move(values));
   std::vector<Hypothesis> curves = {InverseDepth()};
@@ -137,7 +157,9 @@ double Score(const DepthCurveTest::Votes& votes) {
 
 }  // namespace
 
-bool DepthCurveTest::Votes::ProveCurve() const { return Proves(num_curve, num_depth); }
+bool DepthCurveTest::Votes::ProveCurve() const {
+  return Proves(num_curve, num_depth) && num_curve_places >= kMinPlaces;
+}
 
 bool DepthCurveTest::Votes::ProveDepth() const { return Proves(num_depth, num_curve); }
 
@@ -169,13 +191,18 @@ void DepthCurveTest::Add(const cv::Mat& recorded) {
     for (int x = 0; x < values.cols; ++x) values(y, x) = depth.at<float>(y * step_, x * step_);
   }
   const double rounding = kRounding / depth_scale_;
+  size_t place = 0;
   for (const int size : kPatchSizes) {
     for (int y = 0; y + size <= values.rows; y += size / 2) {
       for (int x = 0; x + size <= values.cols; x += size / 2) {
         const cv::Rect cells(x, y, size, size);
         const std::optional<SurfacePatch> patch =
             MeasurePatch(values(cells), rays_(cells), rounding);
-        if (patch) patches_.push_back(*patch);
+        if (patch && patch->gradient.norm() < kMaxSlope * patch->value) {
+          patches_.resize(std::max(patches_.size(), place + 1));
+          patches_[place].push_back(*patch);
+        }
+        ++place;
       }
     }
   }

@@ -41,6 +41,9 @@ class DepthCurveTest {
     DepthCurve curve = DepthCurve::kDepth;
     int num_curve = 0;
     int num_depth = 0;
+    /// Number of places in the image that have the surfaces of num_curve: a single bent surface,
+    /// repeated in every image of a slow camera, proves no curve.
+    int num_curve_places = 0;
     double origin = 0.0;  ///< kInverted: the value at distance 0, metres
     /// The curve is proven, but depth behind an undescribed lens explains the surfaces as well.
     bool may_be_lens = false;
@@ -63,7 +66,8 @@ class DepthCurveTest {
   double depth_scale_;
   int step_;                  // pixels between the cells of rays_
   cv::Mat_<cv::Vec2d> rays_;  // undistorted points of the plane z = 1
-  std::vector<SurfacePatch> patches_;
+  // For each place in the image and each size, the surfaces of all images.
+  std::vector<std::vector<SurfacePatch>> patches_;
 };
 
 }  // namespace msc_vo

@@ -201,6 +201,38 @@ TEST(DepthCurve, IsNotToldByCurvedSurfaces) {
   EXPECT_FALSE(test.Best().ProveCurve()) << Verdict(test);
 }
 
+// Images of a wall with an area of inverted depth, which images of other sequences may show by
+// chance.
+TEST(DepthCurve, IsNotToldByASingleSurfaceThatAllImagesRepeat) {
+  DepthCurveTest test(kCamera, {}, kScale);
+  cv::Mat depth(kCamera.height, kCamera.width, CV_32FC1, cv::Scalar(2));
+  for (int y = 50; y < 70; ++y) {
+    for (int x = 70; x < 90; ++x) depth.at<float>(y, x) = 6.0f - 1.0f / (0.5f - 0.012f * (x - 70));
+  }
+  for (int i = 0; i < 30; ++i) test.Add(depth);
+  EXPECT_GT(test.Best().num_curve, 20);
+  EXPECT_FALSE(test.Best().ProveCurve()) << Verdict(test);
+}
+
+// Matchers with large windows make slopes of the steps between two walls, at other places in each
+// image.
+TEST(DepthCurve, IsNotToldBySmoothedDepthEdges) {
+  DepthCurveTest test(kCamera, {}, kScale);
+  for (int i = 0; i < 30; ++i) {
+    cv::Mat depth(kCamera.height, kCamera.width, CV_32FC1);
+    for (int y = 0; y < depth.rows; ++y) {
+      for (int x = 0; x < depth.cols; ++x) {
+        const double from_edge = (x + 0.2 * y - 30.0 - 3.0 * i) / 8.0;
+        const double step = std::exp(-std::pow(std::max(0.0, 2.0 - from_edge), 2.0));
+        depth.at<float>(y, x) =
+            static_cast<float>(std::round(kScale * (1.0 + 3.0 * step)) / kScale);
+      }
+    }
+    test.Add(depth);
+  }
+  EXPECT_FALSE(test.Best().ProveCurve()) << Verdict(test);
+}
+
 TEST(DepthCurve, IsNotToldByEmptyOrConstantImages) {
   for (const float value : {0.0f, 2.0f, 65.535f}) {
     DepthCurveTest test(kCamera, {}, kScale);
