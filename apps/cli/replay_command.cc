@@ -25,8 +25,10 @@
 #include "apps/cli/usage_error.h"
 #include "msc_vo/checkpoint/checkpoint_file.h"
 #include "msc_vo/config/options_file.h"
+#include "msc_vo/diagnosis/sequence_check.h"
 #include "msc_vo/logging/logger.h"
 #include "msc_vo/recording/window_file.h"
+#include "msc_vo/results/calibrated_value.h"
 #include "msc_vo/results/result_files.h"
 #include "msc_vo/results/run_report.h"
 #include "msc_vo/results/sequence_identity.h"
@@ -190,18 +192,27 @@ void CheckPaths(const ReplayArguments& arguments, const SequenceIndex& index,
   if (!arguments.overwrite && !is_resumed) RefuseToOverwriteOthers(output, sequence);
 }
 
-// Adds the warnings of the checks of the sequence, and a new one if --gravity had no effect.
-void AddWarnings(const std::vector<std::string>& check_warnings, const GravityFactors* gravity,
-                 SequenceRun* run) {
-  std::vector<std::string>& warnings = run->context.sequence.warnings;
-  warnings.insert(warnings.end(), check_warnings.begin(), check_warnings.end());
+// Adds the warnings of the checks of the sequence, and new ones if depth contradicts the images, or
+// if --gravity had no effect.
+void AddWarnings(const RgbdDecoder& decoder, const std::vector<std::string>& check_warnings,
+                 const GravityFactors* gravity, SequenceRun* run) {
+  std::vector<std::string> own;
+  const std::string contradiction = DescribeDepthContradiction(run->summary);
+  // Distortions of depth, or motion blur, can look like a wrong registration, but not to the edges.
+  const auto is_registered = [&] { return !decoder.index().camera && HasRegisteredEdges(decoder); };
+  if (!contradiction.empty() && !is_registered()) own.push_back(contradiction);
   const bool is_complete = run->exit_code == kExitSuccess || run->exit_code == kExitTrackingFailed;
-  if (gravity == nullptr || gravity->HasMeasured() || !is_complete) return;
-  warnings.push_back(
-      "accelerometer.txt: the vertical was never measured, so that --gravity had no effect: "
-      "keyframes must span two seconds or more, and readings must cover 90 % of the time between "
-      "them; are they on the clock of the images?");
-  PrintWarning(warnings.back());
+  if (gravity != nullptr && !gravity->HasMeasured() && is_complete) {
+    own.emplace_back(
+        "accelerometer.txt: the vertical was never measured, so that --gravity had no effect: "
+        "keyframes must span two seconds or more, and readings must cover 90 % of the time between "
+        "them; are they on the clock of the images?");
+  }
+  PrintWarnings(own);
+  for (const std::vector<std::string>& added : {check_warnings, own}) {
+    std::vector<std::string>& warnings = run->context.sequence.warnings;
+    warnings.insert(warnings.end(), added.begin(), added.end());
+  }
 }
 
 // Seconds between two saves of the map. In real time, images do not wait for the disk.
@@ -289,7 +300,7 @@ int Run(const ReplayArguments& arguments, Configuration configuration, Resumed* 
     exports->clear();
     return run.exit_code;
   }
-  AddWarnings(check_warnings, gravity.get(), &run);
+  AddWarnings(decoder, check_warnings, gravity.get(), &run);
   return WriteResults(arguments, output, run, window_problem, &files, &views, exports);
 }
 

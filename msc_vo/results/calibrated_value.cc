@@ -3,10 +3,13 @@
 
 #include "msc_vo/results/calibrated_value.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "msc_vo/geometry/angles.h"
+#include "msc_vo/self_calibration/noise_estimator.h"
+#include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
 
@@ -56,6 +59,24 @@ std::vector<CalibratedValue> ListCalibratedValues(const RunSummary& summary) {
                G::kDepthRegistration),
           make("depth_y", "mm", 1000.0 * translation.y(), 1000.0 * f / depth.fy, S::kDepthParallaxY,
                G::kDepthRegistration)};
+}
+
+std::string DescribeDepthContradiction(const RunSummary& summary) {
+  // Between 6, the largest of registered depth, and 20, the smallest of other depth.
+  constexpr double kMinLogOdds = 10.0;
+  constexpr auto kRegistration = static_cast<size_t>(CorrectionGroup::kDepthRegistration);
+  const NoiseScale& noise = summary.noise_scale;
+  const double log_odds = summary.calibration.log_odds[kRegistration];
+  if (std::max(noise.point_depth, noise.line_depth) < NoiseEstimator::kMaxScale ||
+      summary.calibration.is_corrected[kRegistration] || log_odds < kMinLogOdds) {
+    return "";
+  }
+  return FormatText(
+      "depth contradicts the images: its errors reach the largest factor that is used, %g, and it "
+      "is not registered to colour (odds e^%.0f), but no correction is certain; lengths may be "
+      "wrong by several percent; check registration, mirroring and time stamps of depth (msc_vo "
+      "check --deep), or use registered depth",
+      NoiseEstimator::kMaxScale, log_odds);
 }
 
 }  // namespace msc_vo

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "msc_vo/results/run_summary.h"
@@ -27,5 +28,9 @@ const char* KeptVerdict(bool is_observable);
 /// The calibration in use at the end of a run, with the standard deviations that self-calibration
 /// gives to its values.
 std::vector<CalibratedValue> ListCalibratedValues(const RunSummary& summary);
+
+/// Says that depth contradicts the images: its noise scale is at its bound, and self-calibration is
+/// certain that the registration is wrong, but has not corrected it. Empty otherwise.
+std::string DescribeDepthContradiction(const RunSummary& summary);
 
 }  // namespace msc_vo

@@ -141,6 +141,9 @@ std::vector<ReportNumber> MakeNumbers(const RunSummary& summary, const RunContex
       numbers.push_back({TruthName(context.sequence), "doubtful", warning});
     }
   }
+  for (const std::string& warning : context.sequence.warnings) {
+    numbers.push_back({"Sequence", "doubtful", warning});
+  }
   numbers.push_back({"Frames", StatusText(summary), context.outcome});
   if (!context.first_unreadable.empty()) {
     numbers.push_back({"Unreadable images",

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tests/support/calibration_parameters.h"
+#include "tests/support/message_matchers.h"
 #include <gtest/gtest.h>
 
 #include "msc_vo/sensor/depth_camera_correction.h"
@@ -56,6 +57,23 @@ TEST(CalibratedValue, HasTheVerdictsOfCalibrate) {
   EXPECT_STREQ(values.at("fx").verdict, "corrected");
   EXPECT_STREQ(values.at("cx").verdict, "kept");
   EXPECT_STREQ(values.at("k1").verdict, "kept: not observable");
+}
+
+TEST(DepthContradiction, NeedsTheLargestNoiseAndAWrongRegistrationThatIsKept) {
+  constexpr auto kRegistration = static_cast<size_t>(CorrectionGroup::kDepthRegistration);
+  RunSummary summary = CorrectedRun(S::Vector::Zero());
+  summary.noise_scale.point_depth = 3.0;
+  summary.calibration.log_odds[kRegistration] = 24.0;
+  EXPECT_THAT(DescribeDepthContradiction(summary), Names("depth", "3", "e^24", "check --deep"));
+  summary.calibration.log_odds[kRegistration] = 6.2;  // distorted images with motion blur
+  EXPECT_EQ(DescribeDepthContradiction(summary), "");
+  summary.calibration.log_odds[kRegistration] = 24.0;
+  summary.noise_scale.point_depth = 2.9;
+  EXPECT_EQ(DescribeDepthContradiction(summary), "");
+  summary.noise_scale.line_depth = 3.0;
+  EXPECT_NE(DescribeDepthContradiction(summary), "");
+  summary.calibration.is_corrected[kRegistration] = true;
+  EXPECT_EQ(DescribeDepthContradiction(summary), "");
 }
 
 }  // namespace
