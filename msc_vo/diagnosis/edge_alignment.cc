@@ -31,6 +31,12 @@ constexpr double kSearchRadius = 1.5;
 constexpr int kFineReach = 10;
 // Mirrored images are otherwise registered, to 4 pixels of 640.
 constexpr int kMirroredReach = 2;
+// Largest widening of near surfaces, coarse steps, and the ratio of the peaks with one and without
+// that warrants it: without edges on opposite sides, it is not distinguished from a shift.
+constexpr int kMaxWidening = 4;
+constexpr double kMinWideningGain = 1.02;
+// Uncertainty of the widening, coarse steps.
+constexpr int kWideningError = 2;
 // Size of the cells that distinguish repeated edges from others, pixels of the coarse image: more
 // than the noise of an edge's place.
 constexpr int kCellSize = 4;
@@ -44,11 +50,13 @@ cv::Mat Mirror(const cv::Mat& image, Mirroring mirroring) {
   return mirrored;
 }
 
-// Depth edges as weights of the pixels, CV_32FC1: an edge is between pixels.
-struct EdgeWeights {
-  cv::Mat along_rows;
-  cv::Mat along_columns;
-};
+// Directions to the farther surface, in the order of EdgeScore::by_side; the first two are jumps
+// along rows.
+constexpr std::array<std::array<int, 2>, kNumFarSides> kFarSides = {
+    {{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+
+// Depth edges with each far side as weights of the pixels, CV_32FC1: an edge is between pixels.
+using EdgeWeights = std::array<cv::Mat, kNumFarSides>;
 
 // Centre of the pixel of the full image that pixel i of the reduced depth image comes from, in
 // pixels of the reduced image.
@@ -73,16 +81,13 @@ void AddEdge(double x, double y, cv::Mat* weights) {
 
 // Weights of the edges of a reduced depth image. `full`: size of the image before.
 EdgeWeights WeightsOf(const std::vector<DepthEdge>& edges, cv::Size reduced, cv::Size full) {
-  EdgeWeights weights{cv::Mat::zeros(reduced, CV_32FC1), cv::Mat::zeros(reduced, CV_32FC1)};
+  EdgeWeights weights;
+  for (cv::Mat& side : weights) side = cv::Mat::zeros(reduced, CV_32FC1);
   for (const DepthEdge& edge : edges) {
-    const double x = SampleCenter(edge.x, reduced.width, full.width);
-    const double y = SampleCenter(edge.y, reduced.height, full.height);
-    const double to_edge = 0.5 * edge.far_side;
-    if (edge.horizontal_jump) {
-      AddEdge(x + to_edge, y, &weights.along_rows);
-    } else {
-      AddEdge(x, y + to_edge, &weights.along_columns);
-    }
+    const int side = (edge.horizontal_jump ? 0 : 2) + (edge.far_side > 0 ? 0 : 1);
+    AddEdge(SampleCenter(edge.x, reduced.width, full.width) + 0.5 * kFarSides[side][0],
+            SampleCenter(edge.y, reduced.height, full.height) + 0.5 * kFarSides[side][1],
+            &weights[side]);
   }
   return weights;
 }
@@ -108,11 +113,14 @@ void AddCorrelation(const cv::Mat& weights, const cv::Mat& gradients, cv::Mat* s
   }
 }
 
-cv::Mat Correlate(const EdgeWeights& weights, const EdgeGradients& gradients, int reach) {
-  cv::Mat sum = cv::Mat::zeros(2 * reach + 1, 2 * reach + 1, CV_32FC1), score;
-  AddCorrelation(weights.along_rows, gradients.along_rows, &sum);
-  AddCorrelation(weights.along_columns, gradients.along_columns, &sum);
-  sum.convertTo(score, CV_64F);
+EdgeScore Correlate(const EdgeWeights& weights, const EdgeGradients& gradients, int reach) {
+  EdgeScore score;
+  score.reach = reach;
+  for (int side = 0; side < kNumFarSides; ++side) {
+    cv::Mat sum = cv::Mat::zeros(2 * reach + 1, 2 * reach + 1, CV_32FC1);
+    AddCorrelation(weights[side], side < 2 ? gradients.along_rows : gradients.along_columns, &sum);
+    sum.convertTo(score.by_side[side], CV_64F);
+  }
   return score;
 }
 
@@ -134,15 +142,20 @@ ReducedEdges FindReducedEdges(const cv::Mat& gray, const cv::Mat& depth, int wid
 }
 
 EdgeScore ScoreOf(const ReducedEdges& reduced, const EdgeGradients& gradients, int reach) {
-  return {reduced.image.step, reach, Correlate(reduced.weights, gradients, reach),
-          static_cast<int>(reduced.edges.size())};
+  EdgeScore score = Correlate(reduced.weights, gradients, reach);
+  score.step = reduced.image.step;
+  score.num_edges = static_cast<int>(reduced.edges.size());
+  return score;
 }
 
 // The part of a score for shifts up to `reach`.
 EdgeScore CentralPart(const EdgeScore& score, int reach) {
   const int first = score.reach - reach, size = 2 * reach + 1;
-  return {score.step, reach, score.sum(cv::Rect(first, first, size, size)).clone(),
-          score.num_edges};
+  EdgeScore part{score.step, reach, {}, score.num_edges};
+  for (int side = 0; side < kNumFarSides; ++side) {
+    part.by_side[side] = score.by_side[side](cv::Rect(first, first, size, size)).clone();
+  }
+  return part;
 }
 
 // Edges along rows and along columns in each cell.
@@ -165,20 +178,19 @@ double Maximum(const cv::Mat& score) {
 // The gradients of a mirrored image are the mirrored gradients.
 double MirroredScore(const EdgeWeights& weights, const EdgeGradients& gradients,
                      Mirroring mirroring) {
-  return Maximum(Correlate(
-      weights,
-      {Mirror(gradients.along_rows, mirroring), Mirror(gradients.along_columns, mirroring)},
-      kMirroredReach));
+  const EdgeGradients mirrored{Mirror(gradients.along_rows, mirroring),
+                               Mirror(gradients.along_columns, mirroring)};
+  return Maximum(Correlate(weights, mirrored, kMirroredReach).Sum());
 }
 
 void AddScore(const EdgeScore& score, EdgeScore* total) {
-  if (total->sum.empty()) {
+  if (total->by_side[0].empty()) {
     *total = score;
-    total->sum = score.sum.clone();
-  } else {
-    total->sum += score.sum;
-    total->num_edges += score.num_edges;
+    for (cv::Mat& side : total->by_side) side = side.clone();
+    return;
   }
+  for (int side = 0; side < kNumFarSides; ++side) total->by_side[side] += score.by_side[side];
+  total->num_edges += score.num_edges;
 }
 
 // Offset in steps of the vertex of the parabola that fits best to the values at -2, -1, 0, 1 and 2.
@@ -212,13 +224,13 @@ double PeakBeside(int start, int count, const At& value_at) {
   return center + offset;
 }
 
-// Shift of an element of a score to a fraction of a step, pixels of the full image.
-Eigen::Vector2d ShiftOf(const EdgeScore& score, const cv::Point& element) {
-  const auto in_row = [&](int x) { return score.sum.at<double>(element.y, x); };
-  const auto in_column = [&](int y) { return score.sum.at<double>(y, element.x); };
-  return score.step *
-         Eigen::Vector2d(PeakBeside(element.x, score.sum.cols, in_row) - score.reach,
-                         PeakBeside(element.y, score.sum.rows, in_column) - score.reach);
+// Shift of an element of a sum over all edges to a fraction of a step, pixels of the full image.
+Eigen::Vector2d ShiftOf(const cv::Mat& sum, double step, const cv::Point& element) {
+  const auto in_row = [&](int x) { return sum.at<double>(element.y, x); };
+  const auto in_column = [&](int y) { return sum.at<double>(y, element.x); };
+  const int reach = sum.cols / 2;
+  return step * Eigen::Vector2d(PeakBeside(element.x, sum.cols, in_row) - reach,
+                                PeakBeside(element.y, sum.rows, in_column) - reach);
 }
 
 // Shift of the fine score's peak beside the coarse one, whose shift is given; none if the fine
@@ -235,15 +247,25 @@ std::optional<Eigen::Vector2d> FindFinePeak(const EdgeAlignment& alignment,
     return std::nullopt;
   }
   const cv::Rect region(first.x(), first.y(), last.x() - first.x() + 1, last.y() - first.y() + 1);
+  const cv::Mat sum = fine.Sum();
   cv::Point peak;
-  cv::minMaxLoc(fine.sum(region), nullptr, nullptr, nullptr, &peak);
+  cv::minMaxLoc(sum(region), nullptr, nullptr, nullptr, &peak);
   if (peak.x == 0 || peak.y == 0 || peak.x == region.width - 1 || peak.y == region.height - 1) {
     return std::nullopt;
   }
-  return ShiftOf(fine, peak + region.tl());
+  return ShiftOf(sum, fine.step, peak + region.tl());
 }
 
 }  // namespace
+
+cv::Mat EdgeScore::Sum(int widening) const {
+  cv::Mat sum = cv::Mat::zeros(2 * reach + 1, 2 * reach + 1, CV_64FC1);
+  for (int side = 0; side < kNumFarSides; ++side) {
+    const Eigen::Vector2d far_side(kFarSides[side][0], kFarSides[side][1]);
+    sum += widening == 0 ? by_side[side] : MovedScore(by_side[side], -widening * far_side);
+  }
+  return sum;
+}
 
 EdgeAlignment AlignEdges(const cv::Mat& gray, const cv::Mat& depth, bool with_fine) {
   const ReducedEdges coarse = FindReducedEdges(gray, depth, kCoarseWidth);
@@ -257,12 +279,31 @@ EdgeAlignment AlignEdges(const cv::Mat& gray, const cv::Mat& depth, bool with_fi
     alignment.fine = ScoreOf(fine, GradientsOf(fine.image.gray), kFineReach);
   }
   alignment.cells = CountInCells(coarse.edges, coarse.image.depth.size());
-  alignment.mirrored_score[0] = Maximum(CentralPart(alignment.coarse, kMirroredReach).sum);
+  alignment.mirrored_score[0] = Maximum(CentralPart(alignment.coarse, kMirroredReach).Sum());
   for (int m = 1; m < kNumMirrorings; ++m) {
     alignment.mirrored_score[m] =
         MirroredScore(coarse.weights, gradients, static_cast<Mirroring>(m));
   }
   return alignment;
+}
+
+cv::Mat MovedScore(const cv::Mat& score, const Eigen::Vector2d& steps) {
+  const auto nearest = [&score](double i) {
+    return static_cast<int>(std::clamp(i, 0.0, score.cols - 1.0));
+  };
+  const double left = std::floor(steps.x()), top = std::floor(steps.y());
+  const double a = steps.x() - left, b = steps.y() - top;
+  cv::Mat moved(score.size(), CV_64FC1);
+  for (int y = 0; y < score.rows; ++y) {
+    const auto* above = score.ptr<double>(nearest(y + top));
+    const auto* below = score.ptr<double>(nearest(y + top + 1.0));
+    for (int x = 0; x < score.cols; ++x) {
+      const int i = nearest(x + left), j = nearest(x + left + 1.0);
+      moved.at<double>(y, x) = (1.0 - b) * ((1.0 - a) * above[i] + a * above[j]) +
+                               b * ((1.0 - a) * below[i] + a * below[j]);
+    }
+  }
+  return moved;
 }
 
 void Add(const EdgeAlignment& image, EdgeAlignment* sum) {
@@ -285,14 +326,27 @@ EdgeShift FindPeak(const EdgeAlignment& alignment) {
   EdgeShift result;
   const EdgeScore& coarse = alignment.coarse;
   if (coarse.num_edges == 0) return result;
+  std::array<cv::Mat, kMaxWidening + 1> sums;
+  int widening = 0;
+  for (int w = 0; w <= kMaxWidening; ++w) {
+    sums[w] = coarse.Sum(w);
+    const double gain = widening == 0 ? kMinWideningGain : 1.0;
+    if (Maximum(sums[w]) > gain * Maximum(sums[widening])) widening = w;
+  }
+  const cv::Mat& sum = sums[widening];
+  for (int w = 0; w <= kMaxWidening; ++w) {
+    if (std::abs(w - widening) > kWideningError) continue;
+    const double at_zero = sums[w].at<double>(coarse.reach, coarse.reach) / coarse.num_edges;
+    result.at_zero = std::max(result.at_zero, at_zero);
+  }
   cv::Point peak;
-  cv::minMaxLoc(coarse.sum, nullptr, &result.peak, nullptr, &peak);
+  cv::minMaxLoc(sum, nullptr, &result.peak, nullptr, &peak);
   result.peak /= coarse.num_edges;
-  result.at_zero = coarse.sum.at<double>(coarse.reach, coarse.reach) / coarse.num_edges;
-  std::vector<double> values(coarse.sum.begin<double>(), coarse.sum.end<double>());
-  result.background = Median(std::move(values)) / coarse.num_edges;
-  result.shift = ShiftOf(coarse, peak);
-  result.shift = FindFinePeak(alignment, result.shift).value_or(result.shift);
+  result.background =
+      Median(std::vector<double>(sum.begin<double>(), sum.end<double>())) / coarse.num_edges;
+  result.widening = widening * coarse.step;
+  result.shift = ShiftOf(sum, coarse.step, peak);
+  if (widening == 0) result.shift = FindFinePeak(alignment, result.shift).value_or(result.shift);
   return result;
 }
 

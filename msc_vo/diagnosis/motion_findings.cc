@@ -4,6 +4,7 @@
 #include "msc_vo/diagnosis/motion_findings.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -35,46 +36,56 @@ constexpr double kMinGain = 1.1;
 struct Latency {
   double seconds = 0.0;
   double sigma = 0.0;
-  double gain = 0.0;  // agreement of the edges at this latency over that at none
+  double agreement = 0.0;   // of the edges at this latency
+  double gain = 0.0;        // over the agreement without latency
+  double least_gain = 0.0;  // over the agreement at the latencies far from it, on the worse side
 };
 
-// Score of an image for a shift in pixels, bilinear; the border value outside.
-double ScoreAt(const EdgeScore& edges, const Eigen::Vector2d& shift) {
-  const double limit = 2.0 * edges.reach - 1e-3;
-  const double x = std::clamp(shift.x() / edges.step + edges.reach, 0.0, limit);
-  const double y = std::clamp(shift.y() / edges.step + edges.reach, 0.0, limit);
-  const int column = static_cast<int>(x), row = static_cast<int>(y);
-  const double a = x - column, b = y - row;
-  const auto at = [&](int dx, int dy) { return edges.sum.at<double>(row + dy, column + dx); };
-  return (1.0 - b) * ((1.0 - a) * at(0, 0) + a * at(1, 0)) +
-         b * ((1.0 - a) * at(0, 1) + a * at(1, 1));
-}
-
+// Estimates latency and shift of the depth images together: in uniform motion, one is as good an
+// explanation as the other.
 class LatencyEstimator {
  public:
   explicit LatencyEstimator(const MotionTrack& track) {
+    std::vector<const MotionImage*> images;
+    std::vector<Eigen::Vector2d> velocities;  // pixels/second
     for (size_t i = 0; i + 1 < track.images.size(); ++i) {
       const MotionImage& image = track.images[i];
       const MotionImage& next = track.images[i + 1];
       if (!image.linked || !next.linked || image.edges.coarse.num_edges < kMinEdges) continue;
-      samples_.push_back({&image.edges, 0.5 * (image.velocity + next.velocity), image.depth_delay});
-      num_edges_ += image.edges.coarse.num_edges;
+      images.push_back(&image);
+      velocities.push_back(0.5 * (image.velocity + next.velocity));
+    }
+    num_images_ = images.size();
+    for (size_t i = 0; i < images.size(); ++i) {
+      const EdgeScore& edges = images[i]->edges.coarse;
+      const cv::Mat sum = edges.Sum();
+      num_edges_ += edges.num_edges;
+      for (int l = 0; l < kNumLatencies; ++l) {
+        // Depth that is taken later shows the scene further along: its edges must be moved back.
+        const double delay = LatencyAt(l) + images[i]->depth_delay;
+        AddTo(MovedScore(sum, -delay / edges.step * velocities[i]),
+              &sums_[i * kGroups / images.size()][l]);
+      }
     }
   }
 
-  size_t size() const { return samples_.size(); }
+  size_t size() const { return num_images_; }
 
-  // Of the peak at the best shift and latency.
-  double Agreement() const { return agreement_; }
-
-  Latency Estimate() {
+  Latency Estimate() const {
+    const std::vector<double> agreements = Agreements(-1);
+    const int best = Best(agreements);
     Latency latency;
-    latency.seconds = Best(-1, &latency.gain);
+    latency.seconds = LatencyAt(best);
+    latency.agreement = agreements[best];
+    const auto gain_over = [&](int l) {
+      return agreements[best] / std::max(1e-3, agreements[std::clamp(l, 0, kNumLatencies - 1)]);
+    };
+    latency.gain = gain_over(kNumLatencies / 2);
+    latency.least_gain = std::min(gain_over(best - kFar), gain_over(best + kFar));
     // Jackknife over groups of consecutive images, which see the same edges.
     double squares = 0.0;
     for (int group = 0; group < kGroups; ++group) {
-      double unused = 0.0;
-      const double difference = Best(group, &unused) - latency.seconds;
+      const double difference = LatencyAt(Best(Agreements(group))) - latency.seconds;
       squares += difference * difference;
     }
     latency.sigma = std::hypot(std::sqrt(squares * (kGroups - 1.0) / kGroups), 0.5 * kStep);
@@ -82,91 +93,51 @@ class LatencyEstimator {
   }
 
  private:
-  struct Sample {
-    const EdgeAlignment* edges;
-    Eigen::Vector2d velocity;  // pixels/second
-    double delay;              // seconds, as the stamps say
-  };
-
   static constexpr int kGroups = 8;
-  static constexpr double kStep = 0.005, kReach = 0.25;  // seconds
+  static constexpr double kStep = 0.005;     // seconds
+  static constexpr int kNumLatencies = 101;  // symmetric about 0
+  static constexpr int kFar = 20;            // steps
 
-  double Total(int left_out, double latency, const Eigen::Vector2d& shift) const {
-    double sum = 0.0;
-    for (size_t i = 0; i < samples_.size(); ++i) {
-      if (static_cast<int>(i * kGroups / samples_.size()) == left_out) continue;
-      const Sample& sample = samples_[i];
-      // Depth that is taken later shows the scene further along: its edges must be moved back.
-      sum += ScoreAt(sample.edges->coarse, shift - (latency + sample.delay) * sample.velocity);
+  static double LatencyAt(int l) { return (l - kNumLatencies / 2) * kStep; }
+
+  static void AddTo(const cv::Mat& score, cv::Mat* sum) {
+    if (sum->empty()) {
+      *sum = score;
+    } else {
+      *sum += score;
     }
-    return sum / num_edges_;
   }
 
-  // The peak of the sum of all scores without latency.
-  Eigen::Vector2d CommonShift() const {
-    EdgeAlignment sum;
-    for (const Sample& sample : samples_) Add(*sample.edges, &sum);
-    return FindPeak(sum).shift;
+  // Agreement of the edges at each latency and the best shift for it, without a group of images.
+  std::vector<double> Agreements(int left_out) const {
+    std::vector<double> agreements;
+    for (int l = 0; l < kNumLatencies; ++l) {
+      cv::Mat sum;
+      for (int group = 0; group < kGroups; ++group) {
+        if (group != left_out) AddTo(sums_[group][l].clone(), &sum);
+      }
+      double largest = 0.0;
+      cv::minMaxLoc(sum, nullptr, &largest);
+      agreements.push_back(largest / num_edges_);
+    }
+    return agreements;
   }
 
-  // Climbs from `shift` to the best shift, given the latency.
-  Eigen::Vector2d Climb(double latency, Eigen::Vector2d shift) const {
-    for (const double step : {4.0, 2.0, 1.0}) {
-      for (bool improves = true; improves;) {
-        improves = false;
-        for (const Eigen::Vector2d& move :
-             {Eigen::Vector2d(step, 0.0), Eigen::Vector2d(-step, 0.0), Eigen::Vector2d(0.0, step),
-              Eigen::Vector2d(0.0, -step)}) {
-          if (Total(-1, latency, shift + move) <= Total(-1, latency, shift) + 1e-9) continue;
-          shift += move;
-          improves = true;
-        }
+  // The latency with the highest agreement, the smallest one on ties.
+  static int Best(const std::vector<double>& agreements) {
+    int best = kNumLatencies / 2;
+    for (int i = 1; i <= kNumLatencies / 2; ++i) {
+      for (const int l : {kNumLatencies / 2 - i, kNumLatencies / 2 + i}) {
+        if (agreements[l] > agreements[best] + 1e-9) best = l;
       }
     }
-    return shift;
-  }
-
-  // The best latency. Of all images, both explanations are tried first: a shift of its own, and a
-  // latency alone. In uniform motion the two are alike.
-  double Best(int left_out, double* gain) {
-    if (left_out >= 0) return Scan(left_out);
-    const Eigen::Vector2d common = CommonShift();
-    const double none = Total(-1, 0.0, common);
-    double best = 0.0;
-    agreement_ = -1e9;
-    for (const Eigen::Vector2d& start : {common, Eigen::Vector2d(0.0, 0.0)}) {
-      shift_ = start;
-      shift_ = Climb(Scan(-1), start);
-      const double latency = Scan(-1);
-      const double agreement = Total(-1, latency, shift_);
-      if (agreement <= agreement_) continue;
-      agreement_ = agreement;
-      best = latency;
-      best_shift_ = shift_;
-    }
-    shift_ = best_shift_;
-    *gain = agreement_ / std::max(1e-3, none);
     return best;
   }
 
-  double Scan(int left_out) const {
-    const int steps = static_cast<int>(std::lround(kReach / kStep));
-    double best = -1e9, best_latency = 0.0;
-    for (int i = -steps; i <= steps; ++i) {
-      const double score = Total(left_out, i * kStep, shift_);
-      if (score > best) {
-        best = score;
-        best_latency = i * kStep;
-      }
-    }
-    return best_latency;
-  }
-
-  std::vector<Sample> samples_;
+  size_t num_images_ = 0;
   double num_edges_ = 0.0;
-  Eigen::Vector2d shift_ = Eigen::Vector2d::Zero();       // pixels
-  Eigen::Vector2d best_shift_ = Eigen::Vector2d::Zero();  // pixels
-  double agreement_ = 0.0;
+  // Sums of the scores of each group of images at each latency.
+  std::array<std::array<cv::Mat, kNumLatencies>, kGroups> sums_;
 };
 
 }  // namespace
@@ -205,7 +176,7 @@ void AddFrameMotionFindings(const MotionTrack& track, int width, Findings* findi
 }
 
 void AddLatencyFindings(const MotionTrack& track, Findings* findings) {
-  LatencyEstimator estimator(track);
+  const LatencyEstimator estimator(track);
   const std::string check = "stamps.depth_latency";
   if (estimator.size() < kMinImages) {
     findings->push_back(Good(check, "latency of depth: not tested, too few common edges"));
@@ -213,11 +184,11 @@ void AddLatencyFindings(const MotionTrack& track, Findings* findings) {
   }
   const Latency latency = estimator.Estimate();
   const double seconds = latency.seconds;
-  if (latency.sigma > kMaxLatencySigma || estimator.Agreement() < kMinAgreement) {
+  const bool is_significant = std::abs(seconds) > kFindingSigmas * latency.sigma;
+  if (latency.sigma > kMaxLatencySigma || latency.agreement < kMinAgreement ||
+      latency.least_gain < kMinGain || (is_significant && latency.gain < kMinGain)) {
     findings->push_back(
-        Good(check, FormatText("latency of depth: not tested, little motion or few common edges "
-                               "(+- %.0f ms)",
-                               1e3 * latency.sigma)));
+        Good(check, "latency of depth: not tested, little or uniform motion, or few common edges"));
     return;
   }
   const std::string text = FormatText(
@@ -226,8 +197,7 @@ void AddLatencyFindings(const MotionTrack& track, Findings* findings) {
       1e3 * std::abs(seconds), 1e3 * latency.sigma, seconds > 0.0 ? "later" : "earlier",
       latency.gain);
   const Measurement measurement{seconds, "s"};
-  if (std::abs(seconds) <= kMaxLatency || std::abs(seconds) <= kFindingSigmas * latency.sigma ||
-      latency.gain < kMinGain) {
+  if (std::abs(seconds) <= kMaxLatency || !is_significant) {
     findings->push_back(Good(check, text, measurement));
     return;
   }
@@ -242,17 +212,23 @@ void AddLatencyFindings(const MotionTrack& track, Findings* findings) {
 
 void AddNoiseFindings(const MotionTrack& track, Findings* findings) {
   const std::string check = "depth.noise";
-  double largest = 0.0, smallest = NoiseEstimator::kMaxScale;
-  for (const NoiseScale& scale : track.noise_scales) {
-    largest = std::max({largest, scale.point_depth, scale.line_depth});
-    smallest = std::min({smallest, scale.point_depth, scale.line_depth});
-  }
   if (track.noise_scales.empty()) return;
+  std::vector<double> scales;
+  for (const NoiseScale& scale : track.noise_scales) {
+    for (const double of_depth : {scale.point_depth, scale.line_depth}) {
+      if (of_depth != 1.0) scales.push_back(of_depth);  // 1 until it is estimated
+    }
+  }
+  if (scales.empty()) {
+    findings->push_back(Good(check, "errors of depth: not tested, too few keyframes"));
+    return;
+  }
+  const auto [smallest, largest] = std::minmax_element(scales.begin(), scales.end());
   const std::string text = FormatText(
-      "errors of depth are %.2f to %.2f times those that the options expect", smallest, largest);
-  const Measurement measurement{largest, "ratio"};
-  if (largest < NoiseEstimator::kMaxScale) {
-    const bool at_bound = smallest <= 1.0 / NoiseEstimator::kMaxScale;
+      "errors of depth are %.2f to %.2f times those that the options expect", *smallest, *largest);
+  const Measurement measurement{*largest, "ratio"};
+  if (*largest < NoiseEstimator::kMaxScale) {
+    const bool at_bound = *smallest <= 1.0 / NoiseEstimator::kMaxScale;
     findings->push_back(
         Good(check, text + (at_bound ? "; the smallest factor, so depth is nearly exact" : ""),
              measurement));

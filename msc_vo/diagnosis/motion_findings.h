@@ -13,7 +13,8 @@ namespace msc_vo {
 void AddFrameMotionFindings(const MotionTrack& track, int width, Findings* findings);
 
 /// Latency of the depth images: the shift between depth and colour edges grows in proportion to the
-/// velocity of the image if depth is taken at another time than its stamp says.
+/// velocity of the image if depth is taken at another time than its stamp says. Not tested in
+/// uniform motion, in which a constant shift explains the edges as well.
 void AddLatencyFindings(const MotionTrack& track, Findings* findings);
 
 /// Errors of depth relative to the sigmas of the features. At the largest factor that the odometry

@@ -25,6 +25,9 @@ constexpr double kMaxShift = 5.0;
 // Ratio of the agreement without a shift to that at the peak up to which the shift is certain:
 // along parallel edges the peak is broad.
 constexpr double kMaxZeroRatio = 0.75;
+// Largest delay of depth, seconds: during a longer one, the motion of the camera shifts depth
+// edges.
+constexpr double kMaxDelay = 0.02;
 // Ratio of the peaks of mirrored and unmirrored images from which on the images are mirrored.
 constexpr double kMirroredGain = 1.5;
 
@@ -42,15 +45,22 @@ const char* Name(Mirroring mirroring) {
   return "not mirrored";
 }
 
+double MinPeak(int num_distinct_edges) {
+  return kMinPeakOfOneEdge / std::sqrt(std::max(1, num_distinct_edges));
+}
+
 // Returns true if the images are mirrored.
-bool AddMirroring(const EdgeAlignment& sum, const EdgeShift& peak, double min_peak,
-                  Findings* findings) {
+bool AddMirroring(const EdgeAlignment& sum, Findings* findings) {
+  const EdgeShift peak = FindPeak(sum);
   int best = 0;
   for (int m = 1; m < kNumMirrorings; ++m) {
     if (sum.mirrored_score[m] > sum.mirrored_score[best]) best = m;
   }
   const double mirrored = sum.mirrored_score[best] / std::max(1, sum.coarse.num_edges);
-  if (best == 0 || mirrored < min_peak || mirrored < kMirroredGain * peak.peak) return false;
+  if (best == 0 || mirrored < MinPeak(NumDistinctEdges(sum)) ||
+      mirrored < kMirroredGain * peak.peak) {
+    return false;
+  }
   findings->push_back(
       Error("registration.mirrored",
             FormatText("the colour images are %s with respect to the depth images: depth edges "
@@ -77,28 +87,38 @@ double Tenths(double value) { return std::round(10.0 * value) / 10.0 + 0.0; }
 
 void AddRegistrationFindings(const std::vector<EdgeAlignment>& images, int width,
                              Findings* findings) {
-  EdgeAlignment sum;
-  for (const EdgeAlignment& image : images) Add(image, &sum);
+  std::vector<EdgeAlignment> simultaneous;
+  EdgeAlignment all, sum;
+  for (const EdgeAlignment& image : images) {
+    Add(image, &all);
+    if (std::abs(image.depth_delay) > kMaxDelay) continue;
+    Add(image, &sum);
+    simultaneous.push_back(image);
+  }
+  if (AddMirroring(all, findings)) return;
   const EdgeShift peak = FindPeak(sum);
   const int num_edges = sum.coarse.num_edges;
   const int num_distinct = NumDistinctEdges(sum);
-  const double min_peak = kMinPeakOfOneEdge / std::sqrt(std::max(1, num_distinct));
-  if (AddMirroring(sum, peak, min_peak, findings)) return;
+  const double min_peak = MinPeak(num_distinct);
   if (num_edges < kMinEdges || peak.peak - peak.background < min_peak) {
-    findings->push_back(
-        Good("registration.shift",
-             FormatText("registration of depth to colour is not tested: too few "
-                        "common edges (%d depth edge pixels, %d without repeated "
-                        "ones; agreement %.2f, needed %.2f)",
-                        num_edges, num_distinct, peak.peak - peak.background, min_peak)));
+    findings->push_back(Good(
+        "registration.shift",
+        FormatText("registration of depth to colour is not tested: too few common edges in %zu "
+                   "images without a delay of depth (%d depth edge pixels, %d without "
+                   "repeated ones; agreement %.2f, needed %.2f)",
+                   simultaneous.size(), num_edges, num_distinct, peak.peak - peak.background,
+                   min_peak)));
     return;
   }
   const double distance = peak.shift.norm();
-  const double scatter = Scatter(images, peak.shift);
+  const double scatter = Scatter(simultaneous, peak.shift);
+  const std::string narrower =
+      peak.widening > 0.0 ? FormatText(", near surfaces %.0f px narrower", peak.widening) : "";
   const std::string text = FormatText(
-      "depth edges agree best with the edges of the colour image if shifted by (%.1f, "
-      "%.1f) px (agreement %.2f there, %.2f without a shift; scatter %.1f px)",
-      Tenths(peak.shift.x()), Tenths(peak.shift.y()), peak.peak, peak.at_zero, scatter);
+      "depth edges agree best with the edges of the colour image if shifted by (%.1f, %.1f) px%s "
+      "(agreement %.2f there, %.2f without a shift; scatter %.1f px)",
+      Tenths(peak.shift.x()), Tenths(peak.shift.y()), narrower.c_str(), peak.peak, peak.at_zero,
+      scatter);
   const Measurement measurement{distance, "px"};
   const bool is_certain =
       peak.at_zero - peak.background < kMaxZeroRatio * (peak.peak - peak.background);

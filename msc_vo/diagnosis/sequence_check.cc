@@ -79,6 +79,7 @@ SampleMeasurements MeasureSample(const RgbdDecoder& decoder, int count,
                             calibration.depth_scale);
       curve->Add(image.depth);
       sample.alignments.push_back(AlignEdges(image.gray, image.depth, features.has_value()));
+      sample.alignments.back().depth_delay = image.depth_delay;
       if (builder) sample.textures.push_back(MeasureTexture(builder->Build(image)));
     } catch (const std::exception& error) {
       sample.failures.emplace_back(error.what());

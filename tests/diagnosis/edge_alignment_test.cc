@@ -9,6 +9,9 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
+
+#include "msc_vo/diagnosis/registration_findings.h"
 
 namespace msc_vo {
 namespace {
@@ -165,8 +168,54 @@ TEST(FindPeakTest, StaysAtTheCoarsePeakWithoutFineEdges) {
   EdgeAlignment alignment = SumOfImages(1, 0);
   const Eigen::Vector2d expected = FindPeak(alignment).shift;
   alignment.fine.num_edges = 0;
-  alignment.fine.sum.setTo(0.0);
+  for (cv::Mat& side : alignment.fine.by_side) side.setTo(0.0);
   EXPECT_LT((FindPeak(alignment).shift - expected).norm(), 0.3);
+}
+
+// Rectangles of which the depth image shows the near sides wider by `radius` pixels, as stereo
+// matchers do, and shifted by (dx, dy).
+EdgeAlignment WidenedRectangles(int radius, int dx, int dy) {
+  BoxImage image = MakeRectangles({640, 480}, 0, 0, 2.0);
+  const cv::Mat window = cv::Mat::ones(2 * radius + 1, 2 * radius + 1, CV_8UC1);
+  cv::erode(image.depth, image.depth, window, {-1, -1}, 1, cv::BORDER_REPLICATE);
+  const cv::Mat translation = (cv::Mat_<double>(2, 3) << 1.0, 0.0, dx, 0.0, 1.0, dy);
+  cv::Mat shifted;
+  cv::warpAffine(image.depth, shifted, translation, image.depth.size(), cv::INTER_NEAREST,
+                 cv::BORDER_REPLICATE);
+  return AlignEdges(image.gray, shifted);
+}
+
+TEST(FindPeakTest, DistinguishesWiderNearSurfacesFromAShift) {
+  for (const int radius : {4, 6}) {
+    const EdgeShift registered = FindPeak(WidenedRectangles(radius, 0, 0));
+    EXPECT_LT(registered.shift.norm(), 1.0) << registered.shift.transpose();
+    EXPECT_NEAR(registered.widening, radius, 1.0);
+    const EdgeShift shifted = FindPeak(WidenedRectangles(radius, 9, -6));
+    EXPECT_LT((shifted.shift - Eigen::Vector2d(-9.0, 6.0)).norm(), 1.0)
+        << shifted.shift.transpose();
+  }
+}
+
+Severity SeverityOfShift(const EdgeAlignment& image) {
+  Findings findings;
+  AddRegistrationFindings({image, image, image, image}, 640, &findings);
+  return findings.at(0).severity;
+}
+
+TEST(RegistrationFindingsTest, WarnOfAShiftButNotOfWiderNearSurfaces) {
+  EXPECT_EQ(SeverityOfShift(WidenedRectangles(5, 0, 0)), Severity::kGood);
+  for (const int radius : {0, 5}) {
+    EXPECT_EQ(SeverityOfShift(WidenedRectangles(radius, 9, -6)), Severity::kWarning) << radius;
+  }
+}
+
+// The motion of the camera during the delay shifts the edges.
+TEST(RegistrationFindingsTest, LeaveOutImagesWithALongDelayOfDepth) {
+  EdgeAlignment image = WidenedRectangles(0, 9, -6);
+  image.depth_delay = 0.04;
+  EXPECT_EQ(SeverityOfShift(image), Severity::kGood);
+  image.depth_delay = -0.01;
+  EXPECT_EQ(SeverityOfShift(image), Severity::kWarning);
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, EdgeAlignmentTest,

@@ -3,6 +3,9 @@
 
 #include "msc_vo/diagnosis/motion_findings.h"
 
+#include <cmath>
+#include <functional>
+
 #include "tests/support/message_matchers.h"
 #include <gmock/gmock.h>
 
@@ -47,6 +50,71 @@ TEST(NoiseFindings, TellNearlyExactDepth) {
 }
 
 TEST(NoiseFindings, SayNothingWithoutARun) { EXPECT_TRUE(NoiseFindings({}).empty()); }
+
+TEST(NoiseFindings, AreNotTestedBeforeTheFirstEstimate) {
+  const Findings findings = NoiseFindings({NoiseScale()});
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_EQ(findings[0].severity, Severity::kGood);
+  EXPECT_FALSE(findings[0].value.has_value());
+}
+
+TEST(NoiseFindings, LeaveOutScalesThatAreNotEstimated) {
+  EXPECT_THAT(NoiseFindings({{0.5, 1.0, 1.0}})[0].text, Names("0.50 to 0.50"));
+}
+
+// Images of a box that moves along the rows with `velocity` (pixels/second) at each image. Depth is
+// taken `delay` seconds after the colour images; the stamps tell `told` of it.
+Finding LatencyOfBox(const std::function<double(int)>& velocity, double delay, double told) {
+  MotionTrack track;
+  for (int i = 0; i < 40; ++i) {
+    const cv::Rect box(110, 70, 90, 80);
+    cv::Mat gray(240, 320, CV_8UC1, cv::Scalar(60)), depth(240, 320, CV_32FC1, cv::Scalar(3));
+    gray(box).setTo(180);
+    depth(box + cv::Point(static_cast<int>(std::lround(delay * velocity(i))), 0)).setTo(1.5);
+    MotionImage image;
+    image.timestamp = 0.1 * i;
+    image.linked = true;
+    image.velocity = {velocity(i), 0.0};
+    image.edges = AlignEdges(gray, depth);
+    image.depth_delay = told;
+    track.images.push_back(image);
+  }
+  Findings findings;
+  AddLatencyFindings(track, &findings);
+  return findings.at(0);
+}
+
+double Sway(int i) { return 120.0 * std::sin(0.2 * i); }
+
+TEST(LatencyFindings, WarnOfADelayThatTheStampsDoNotTell) {
+  for (const double delay : {-0.08, 0.08}) {
+    const Finding finding = LatencyOfBox(Sway, delay, 0.0);
+    EXPECT_EQ(finding.severity, Severity::kWarning) << finding.text;
+    EXPECT_NEAR(finding.value.value_or(0.0), delay, 0.02);
+  }
+}
+
+TEST(LatencyFindings, AcceptADelayThatTheStampsTell) {
+  for (const double delay : {-0.08, 0.08}) {
+    const Finding finding = LatencyOfBox(Sway, delay, delay);
+    EXPECT_EQ(finding.severity, Severity::kGood) << finding.text;
+    EXPECT_NEAR(finding.value.value_or(1.0), 0.0, 0.02);
+  }
+}
+
+// A shift of depth explains the edges as well.
+TEST(LatencyFindings, AreNotTestedInUniformMotion) {
+  for (const double delay : {-0.05, 0.0, 0.05}) {
+    for (const double told : {0.0, delay}) {
+      const Finding finding = LatencyOfBox([](int) { return 100.0; }, delay, told);
+      EXPECT_EQ(finding.severity, Severity::kGood) << finding.text;
+    }
+  }
+}
+
+TEST(LatencyFindings, AreNotTestedAtRest) {
+  EXPECT_FALSE(LatencyOfBox([](int) { return 0.0; }, 0.0, 0.0).value.has_value());
+}
 
 }  // namespace
 }  // namespace msc_vo
