@@ -9,25 +9,29 @@
 #include <vector>
 
 #include "msc_vo/frame/rolling_shutter.h"
-#include "msc_vo/geometry/so3.h"
+#include "msc_vo/geometry/camera_velocity.h"
 #include "msc_vo/sensor/depth_alignment.h"
 
 namespace msc_vo {
 
 namespace {
 
-// Velocity between two frames; std::nullopt unless both poses are estimated.
+// Velocity between two frames; std::nullopt unless both poses are estimated, in one world.
 std::optional<CameraVelocity> VelocityBetween(const FrameResult& before, const FrameResult& after) {
   if (!IsEstimated(before.status) || !IsEstimated(after.status)) return std::nullopt;
-  const double seconds = after.timestamp - before.timestamp;
-  const Rigid3 motion = after.cam_from_world * before.cam_from_world.Inverse();
-  return CameraVelocity{LogSO3(motion.rotation()) / seconds, motion.translation() / seconds};
+  if (before.world != after.world) return std::nullopt;
+  return CameraVelocity::Of(after.cam_from_world * before.cam_from_world.Inverse(),
+                            after.timestamp - before.timestamp);
 }
 
-std::vector<size_t> SelectFrames(const std::vector<FrameResult>& frames, size_t max_views) {
+// Indices of at most `max_views` frames whose poses are in the largest world.
+std::vector<size_t> SelectFrames(const OdometryResult& result, size_t max_views) {
   std::vector<size_t> estimated;
-  for (size_t i = 1; i + 1 < frames.size(); ++i) {
-    if (frames[i].status == TrackingStatus::kTracked) estimated.push_back(i);
+  for (size_t i = 1; i + 1 < result.frames.size(); ++i) {
+    const FrameResult& frame = result.frames[i];
+    if (frame.status == TrackingStatus::kTracked && frame.world == result.map_world) {
+      estimated.push_back(i);
+    }
   }
   if (estimated.size() <= max_views) return estimated;
   std::vector<size_t> selected;
@@ -45,7 +49,7 @@ CalibrationSequence MakeCalibrationViews(const RgbdDecoder& decoder,
   const Calibration& calibration = decoder.calibration();
   FrameBuilder builder(features, calibration.camera, calibration.distortion);
   CalibrationSequence views;
-  for (const size_t i : SelectFrames(result.frames, max_views)) {
+  for (const size_t i : SelectFrames(result, max_views)) {
     const auto velocity = VelocityBetween(result.frames[i - 1], result.frames[i + 1]);
     RgbdImage image = decoder.Decode(static_cast<int>(result.frames[i].id));
     if (velocity && image.depth_delay != 0.0) {

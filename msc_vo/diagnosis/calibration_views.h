@@ -15,9 +15,9 @@ namespace msc_vo {
 /// The default number of views: a bound of time and memory.
 constexpr size_t kMaxCalibrationViews = 80;
 
-/// Decodes up to `max_views` evenly spaced images of a sequence that were tracked, and extracts
-/// their points: with the depth at the time of the colour image, and without the rolling shutter if
-/// `result` knows its readout time.
+/// Decodes up to `max_views` evenly spaced images of a sequence that were tracked in the largest
+/// world (OdometryResult::map_world), and extracts their points: with the depth at the time of the
+/// colour image, and without the rolling shutter if `result` knows its readout time.
 CalibrationSequence MakeCalibrationViews(const RgbdDecoder& decoder,
                                          const FrameBuilderOptions& features,
                                          const OdometryResult& result,

@@ -121,18 +121,18 @@ class MotionTracker {
   void AddResult(const OdometryResult& result, std::map<int64_t, MotionImage>* images) {
     track_.noise_scales.push_back(result.noise_scale);
     const int first_segment = track_.images.empty() ? 0 : track_.images.back().segment + 1;
-    bool was_estimated = false;
+    bool was_added = false;
     for (const FrameResult& frame : result.frames) {
-      const bool is_estimated = IsEstimated(frame.status);
       const auto found = images->find(frame.id);
-      if (is_estimated && found != images->end()) {
+      const bool is_added = IsEstimated(frame.status) && found != images->end();
+      if (is_added) {
         MotionImage& image = found->second;
         image.cam_from_world = frame.cam_from_world;
         image.segment = first_segment + frame.segment;
-        image.linked &= was_estimated && track_.images.back().segment == image.segment;
+        image.linked &= was_added && track_.images.back().segment == image.segment;
         track_.images.push_back(std::move(image));
       }
-      was_estimated = is_estimated;
+      was_added = is_added;
     }
     track_.views.push_back(MakeCalibrationViews(decoder_, options_.features, result, max_views_));
   }

@@ -10,6 +10,8 @@
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
+#include "msc_vo/diagnosis/calibration_views.h"
+
 namespace msc_vo {
 namespace {
 
@@ -61,6 +63,25 @@ TEST_F(SequenceCheckTest, ReportsNoProblemOfValidSequence) {
                                             Field(&Finding::check, "images.texture"))));
   EXPECT_THAT(findings, Contains(Is(Severity::kGood, "depth.scale", Names("2.00 m"))));
   EXPECT_THAT(findings, Contains(Is(Severity::kGood, "ground_truth.overlap", Names("6"))));
+}
+
+TEST_F(SequenceCheckTest, CalibrationViewsAreOfOneWorld) {
+  OdometryResult result;
+  for (int i = 0; i < 6; ++i) {
+    FrameResult frame;
+    frame.id = i;
+    frame.timestamp = 0.1 * i;
+    frame.status = TrackingStatus::kTracked;
+    frame.world = i < 2 ? 0 : 1;
+    result.frames.push_back(frame);
+  }
+  result.map_world = 1;
+  const RgbdDecoder decoder(index_, calibration_);
+  std::vector<int64_t> ids;
+  for (const CalibrationView& view : MakeCalibrationViews(decoder, FrameBuilderOptions(), result)) {
+    ids.push_back(view.frame->id);
+  }
+  EXPECT_THAT(ids, testing::ElementsAre(2, 3, 4));
 }
 
 TEST_F(SequenceCheckTest, RefusesInvalidOptions) {
