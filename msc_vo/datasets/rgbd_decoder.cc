@@ -53,7 +53,12 @@ cv::Mat DecodeStored(const StoredImage& stored, const std::string& path,
   // A JPEG stores luminance in a separate channel of 8 bits; decoding colours and converting them
   // to grey would take longer and round twice.
   const int mode = IsJpeg(stored.bytes) ? cv::IMREAD_GRAYSCALE : cv::IMREAD_UNCHANGED;
-  const cv::Mat image = DecodeImage(stored.bytes, mode | cv::IMREAD_IGNORE_ORIENTATION);
+  cv::Mat image;
+  try {
+    image = DecodeImage(stored.bytes, mode | cv::IMREAD_IGNORE_ORIENTATION);
+  } catch (const std::runtime_error& error) {  // a format that is not read
+    Fail(path, entry, error.what());
+  }
   if (image.empty()) {
     Fail(path, entry,
          "is damaged, truncated or not an image (" + std::to_string(stored.bytes.size()) +
