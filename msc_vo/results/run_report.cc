@@ -118,7 +118,8 @@ std::string DepthSensorText(const RunSummary& summary, const RunContext& context
   return std::string(ToString(summary.depth_sensor)) + " (chosen from the depth images)";
 }
 
-std::vector<ReportNumber> MakeNumbers(const RunSummary& summary, const RunContext& context) {
+// Errors against the ground truth, and what is doubtful about it and about the sequence.
+std::vector<ReportNumber> ErrorNumbers(const RunContext& context) {
   std::vector<ReportNumber> numbers;
   if (context.error && context.error->usable) {
     const TrajectoryError& error = *context.error;
@@ -144,6 +145,11 @@ std::vector<ReportNumber> MakeNumbers(const RunSummary& summary, const RunContex
   for (const std::string& warning : context.sequence.warnings) {
     numbers.push_back({"Sequence", "doubtful", warning});
   }
+  return numbers;
+}
+
+std::vector<ReportNumber> MakeNumbers(const RunSummary& summary, const RunContext& context) {
+  std::vector<ReportNumber> numbers = ErrorNumbers(context);
   numbers.push_back({"Frames", StatusText(summary), context.outcome});
   if (!context.first_unreadable.empty()) {
     numbers.push_back({"Unreadable images",
