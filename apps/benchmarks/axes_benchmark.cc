@@ -76,5 +76,3 @@ BENCHMARK(RefineAxes)->Arg(100)->Arg(500)->Arg(2000)->Unit(benchmark::kMilliseco
 }  // namespace
 
 }  // namespace msc_vo
-
-BENCHMARK_MAIN();

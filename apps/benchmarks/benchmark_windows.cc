@@ -4,13 +4,9 @@
 #include "apps/benchmarks/benchmark_windows.h"
 
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
-#include <stdexcept>
-
-#include <benchmark/benchmark.h>
 
 #include "msc_vo/recording/window_file.h"
 #include "msc_vo/synthetic/window/synthetic_window.h"
@@ -76,26 +72,6 @@ std::vector<WindowPtr> RecordedWindows() {
     windows.back()->Get();  // report errors in the file immediately
   }
   return windows;
-}
-
-int RunWindowBenchmarks(int argc, char** argv, const std::vector<int>& keyframe_counts,
-                        const std::vector<WindowContent>& contents,
-                        const std::function<void(const WindowPtr&)>& add_benchmarks) {
-  try {
-    for (const WindowPtr& window : RecordedWindows()) add_benchmarks(window);
-  } catch (const std::runtime_error& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
-  for (const int num_keyframes : keyframe_counts) {
-    for (const WindowContent content : contents) {
-      add_benchmarks(SyntheticBenchmarkWindow(content, num_keyframes));
-    }
-  }
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
-  benchmark::RunSpecifiedBenchmarks();
-  return 0;
 }
 
 }  // namespace msc_vo

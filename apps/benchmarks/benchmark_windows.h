@@ -50,11 +50,4 @@ WindowPtr SyntheticBenchmarkWindow(WindowContent content, int num_keyframes);
 /// std::runtime_error, naming the file, if one cannot be read.
 std::vector<WindowPtr> RecordedWindows();
 
-/// The main function of a benchmark over windows: calls `add_benchmarks` for every recorded window,
-/// and for a synthetic window of each number of keyframes and each content, then runs what it
-/// registered. Returns the exit code; prints the error if it is not 0.
-int RunWindowBenchmarks(int argc, char** argv, const std::vector<int>& keyframe_counts,
-                        const std::vector<WindowContent>& contents,
-                        const std::function<void(const WindowPtr&)>& add_benchmarks);
-
 }  // namespace msc_vo

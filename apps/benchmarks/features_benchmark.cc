@@ -17,22 +17,22 @@ namespace msc_vo {
 
 namespace {
 
-struct Input {
+struct ImageInput {
   SyntheticSequence sequence = BenchmarkSequence();
   RgbdImage image = RenderImage(sequence, 40);
 };
 
-const Input& SharedInput() {
-  static const Input input;
+const ImageInput& SharedImage() {
+  static const ImageInput input;
   return input;
 }
 
 // Measures `step`, which returns its number of features.
 template <typename Step>
 void Measure(benchmark::State& state, const Step& step) {
-  size_t num_features = step(SharedInput().image);  // grows the buffers
+  size_t num_features = step(SharedImage().image);  // grows the buffers
   const int64_t before = NumAllocations();
-  for (auto _ : state) num_features = step(SharedInput().image);
+  for (auto _ : state) num_features = step(SharedImage().image);
   state.counters["allocations"] = benchmark::Counter(static_cast<double>(NumAllocations() - before),
                                                      benchmark::Counter::kAvgIterations);
   state.counters["features"] = static_cast<double>(num_features);
@@ -60,7 +60,7 @@ BENCHMARK_CAPTURE(Lines, edge_drawing, LineDetector::kEdgeDrawing)->Unit(benchma
 BENCHMARK_CAPTURE(Lines, lsd, LineDetector::kLsd)->Unit(benchmark::kMillisecond);
 
 void LineDescriptors(benchmark::State& state) {
-  const auto lines = LineExtractor({}).Extract(SharedInput().image.gray);
+  const auto lines = LineExtractor({}).Extract(SharedImage().image.gray);
   LineDescriptorExtractor descriptor_extractor;
   Measure(state, [&](const RgbdImage& image) {
     descriptor_extractor.SetImage(image.gray);
@@ -73,7 +73,7 @@ void LineDescriptors(benchmark::State& state) {
 BENCHMARK(LineDescriptors)->Unit(benchmark::kMillisecond);
 
 void WholeFrame(benchmark::State& state) {
-  FrameBuilder builder({}, SharedInput().sequence.camera(), LensDistortion());
+  FrameBuilder builder({}, SharedImage().sequence.camera(), LensDistortion());
   Measure(state, [&](const RgbdImage& image) {
     const Frame frame = builder.Build(image);
     return frame.points.size() + frame.lines.size();
@@ -82,7 +82,7 @@ void WholeFrame(benchmark::State& state) {
 BENCHMARK(WholeFrame)->Unit(benchmark::kMillisecond);
 
 void SurfaceNormals(benchmark::State& state) {
-  SurfaceNormalEstimator estimator({}, SharedInput().sequence.camera(), LensDistortion());
+  SurfaceNormalEstimator estimator({}, SharedImage().sequence.camera(), LensDistortion());
   Measure(state, [&](const RgbdImage& image) { return estimator.Estimate(image.depth).size(); });
 }
 BENCHMARK(SurfaceNormals)->Unit(benchmark::kMillisecond);
@@ -90,5 +90,3 @@ BENCHMARK(SurfaceNormals)->Unit(benchmark::kMillisecond);
 }  // namespace
 
 }  // namespace msc_vo
-
-BENCHMARK_MAIN();

@@ -71,5 +71,3 @@ BENCHMARK(Snapshot)->ArgsProduct({{15, 60, 240}, {0, 1000}})->Unit(benchmark::kM
 }  // namespace
 
 }  // namespace msc_vo
-
-BENCHMARK_MAIN();

@@ -30,5 +30,3 @@ BENCHMARK_CAPTURE(Planes, blank, SceneKind::kBlank)->Unit(benchmark::kMillisecon
 }  // namespace
 
 }  // namespace msc_vo
-
-BENCHMARK_MAIN();

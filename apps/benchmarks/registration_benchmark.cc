@@ -41,5 +41,3 @@ BENCHMARK_CAPTURE(Registration, to_1280x720_lens, kHd, 0.1)->Unit(benchmark::kMi
 }  // namespace
 
 }  // namespace msc_vo
-
-BENCHMARK_MAIN();

@@ -15,8 +15,8 @@ namespace msc_vo {
 
 namespace {
 
-struct Input {
-  Input() {
+struct FrameInput {
+  FrameInput() {
     const SyntheticSequence sequence = BenchmarkSequence();
     FrameBuilder builder({}, sequence.camera(), LensDistortion());
     last.frame = std::make_shared<Frame>(builder.Build(RenderImage(sequence, 40)));
@@ -32,13 +32,13 @@ struct Input {
   FrameMatches matches;
 };
 
-const Input& SharedInput() {
-  static const Input input;
+const FrameInput& SharedFrame() {
+  static const FrameInput input;
   return input;
 }
 
 void Candidates(benchmark::State& state) {
-  const Input& input = SharedInput();
+  const FrameInput& input = SharedFrame();
   const Map map;
   for (auto _ : state) {
     benchmark::DoNotOptimize(CandidatesFromFrame(map, input.last, Rigid3()));
@@ -50,7 +50,7 @@ BENCHMARK(Candidates)->Unit(benchmark::kMicrosecond);
 
 // The argument is the search radius, pixels.
 void PointMatching(benchmark::State& state) {
-  const Input& input = SharedInput();
+  const FrameInput& input = SharedFrame();
   size_t num_matches = 0;
   for (auto _ : state) {
     num_matches = MatchPoints(input.options.matchers.point_matcher, input.frame,
@@ -62,7 +62,7 @@ void PointMatching(benchmark::State& state) {
 BENCHMARK(PointMatching)->Arg(4)->Arg(15)->Arg(60)->Unit(benchmark::kMicrosecond);
 
 void LineMatching(benchmark::State& state) {
-  const Input& input = SharedInput();
+  const FrameInput& input = SharedFrame();
   size_t num_matches = 0;
   for (auto _ : state) {
     num_matches = MatchLines(input.options.matchers.line_matcher, input.frame,
@@ -74,7 +74,7 @@ void LineMatching(benchmark::State& state) {
 BENCHMARK(LineMatching)->Arg(4)->Arg(15)->Arg(60)->Unit(benchmark::kMicrosecond);
 
 void EstimatePose(benchmark::State& state) {
-  const Input& input = SharedInput();
+  const FrameInput& input = SharedFrame();
   PoseSummary summary;
   for (auto _ : state) {
     Rigid3 cam_from_world;
@@ -90,5 +90,3 @@ BENCHMARK(EstimatePose)->Unit(benchmark::kMicrosecond);
 }  // namespace
 
 }  // namespace msc_vo
-
-BENCHMARK_MAIN();

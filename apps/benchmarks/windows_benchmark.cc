@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// Local bundle adjustment of windows with every solver. The baseline is the first of them, Ceres
-// with Eigen's factorisation. "speedup" is the ratio of the baseline's time to the solver's,
-// "cost_change" the relative difference of the final costs. Window files:
-// MSC_VO_WINDOWS=a.txt:b.txt.
+// Local bundle adjustment of windows with every solver, and with custom factors. The baseline of
+// the solvers is the first of them, Ceres with Eigen's factorisation. "speedup" is the ratio of the
+// baseline's time to the solver's, "cost_change" the relative difference of the final costs. Custom
+// factors: 20 with automatic derivatives between the poses of consecutive keyframes, by block
+// Schur; windows without and with them are solved alternately, "ratio" is that of their median
+// times. Window files: MSC_VO_WINDOWS=a.txt:b.txt.
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <map>
+#include <stdexcept>
+#include <vector>
 
 #include <benchmark/benchmark.h>
 
 #include "apps/benchmarks/benchmark_windows.h"
+#include "msc_vo/factors/relative_pose.h"
 #include "msc_vo/timing/stopwatch.h"
 
 namespace msc_vo {
@@ -109,6 +115,50 @@ void Solve(benchmark::State& state, const Variant& variant, const NamedWindow& w
                  std::to_string(data.line_observations.size()) + " observations");
 }
 
+constexpr size_t kNumFactors = 20;
+
+void AddRelativePoses(WindowData* data) {
+  const RelativePose::Matrix6d covariance = RelativePose::Matrix6d::Identity() * 1e-4;
+  for (size_t i = 0; i < kNumFactors; ++i) {
+    const WindowData::Keyframe& a = data->keyframes[i % (data->keyframes.size() - 1)];
+    const WindowData::Keyframe& b = *(&a + 1);
+    CustomFactor factor;
+    factor.name = "relative pose";
+    factor.cost =
+        RelativePose::CreateShared(b.cam_from_world * a.cam_from_world.Inverse(), covariance);
+    factor.blocks = {BlockId::Pose(a.id), BlockId::Pose(b.id)};
+    data->custom_factors.push_back(factor);
+  }
+}
+
+double Median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+  return values[values.size() / 2];
+}
+
+// Returns the milliseconds of one solve.
+double MillisecondsOf(const BundleAdjustmentOptions& options, WindowData data) {
+  const Stopwatch stopwatch;
+  benchmark::DoNotOptimize(LocalBundleAdjustment(options, &data).final_cost);
+  return stopwatch.Milliseconds();
+}
+
+void Compare(benchmark::State& state, const NamedWindow& window) {
+  BundleAdjustmentOptions options = window.Get().options;
+  options.solver = BundleAdjustmentSolver::kBlockSchur;
+  const WindowData& without = window.Get().data;
+  WindowData with = without;
+  AddRelativePoses(&with);
+  std::vector<double> times_without, times_with;
+  for (auto _ : state) {
+    times_without.push_back(MillisecondsOf(options, without));
+    times_with.push_back(MillisecondsOf(options, with));
+  }
+  state.counters["without_ms"] = Median(times_without);
+  state.counters["with_ms"] = Median(times_with);
+  state.counters["ratio"] = Median(times_with) / Median(times_without);
+}
+
 void Register(const WindowPtr& window) {
   for (const Variant& variant : kVariants) {
     BundleAdjustmentOptions options;
@@ -120,6 +170,19 @@ void Register(const WindowPtr& window) {
         [&variant, window](benchmark::State& state) { Solve(state, variant, *window); })
         ->Unit(benchmark::kMillisecond);
   }
+  benchmark::RegisterBenchmark((window->name() + "/custom_factors").c_str(),
+                               [window](benchmark::State& state) { Compare(state, *window); })
+      ->Unit(benchmark::kMillisecond);
+}
+
+void RegisterAll() {
+  for (const WindowPtr& window : RecordedWindows()) Register(window);
+  for (const int num_keyframes : {5, 10, 20, 40}) {
+    for (const WindowContent content :
+         {WindowContent::kPoints, WindowContent::kLines, WindowContent::kStructure}) {
+      Register(SyntheticBenchmarkWindow(content, num_keyframes));
+    }
+  }
 }
 
 }  // namespace
@@ -127,8 +190,14 @@ void Register(const WindowPtr& window) {
 }  // namespace msc_vo
 
 int main(int argc, char** argv) {
-  using msc_vo::WindowContent;
-  return msc_vo::RunWindowBenchmarks(
-      argc, argv, {5, 10, 20, 40},
-      {WindowContent::kPoints, WindowContent::kLines, WindowContent::kStructure}, msc_vo::Register);
+  try {
+    msc_vo::RegisterAll();
+  } catch (const std::runtime_error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
 }
