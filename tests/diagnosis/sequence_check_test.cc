@@ -24,7 +24,7 @@ using testing::Not;
 testing::Matcher<const Finding&> Is(Severity severity, const std::string& check,
                                     const NamesMatcher& names) {
   return AllOf(Field(&Finding::severity, severity), Field(&Finding::check, check),
-               testing::ResultOf(&Describe, names));
+               testing::ResultOf([](const Finding& finding) { return Describe(finding); }, names));
 }
 
 class SequenceCheckTest : public TemporaryFolder {

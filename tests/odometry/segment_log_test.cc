@@ -70,7 +70,7 @@ TEST(SegmentLog, FramesThatAreNotLocalizedBelongToTheSegmentBefore) {
   std::vector<Segment> segments(4);
   segments[0].is_earlier_session = true;
   segments[0].last_frame = -1;
-  for (int i = 1; i <= 3; ++i) segments[i] = {3 * i - 3, 3 * i - 1, 3, i == 2 ? 2 : 0};
+  for (int i = 1; i <= 3; ++i) segments[i] = {3 * i - 3, 3 * i - 1, 3, i == 2 ? 2 : 0, {}, false};
   segments[1].join = SegmentJoin{2, 3};
   segments[3].join = SegmentJoin{8, 3};
   std::vector<FrameResult> frames(9, TrackedAt(Rigid3()));

@@ -212,8 +212,7 @@ TEST_F(ResultFilesTest, WritesSegmentsAndMarksPosesBeforeThem) {
 // The run was found in world 0 of an earlier session, in its second segment.
 TEST_F(ResultFilesTest, FramesBeforeTheFirstSegmentHaveItsFirstPose) {
   OdometryResult result = Result();
-  result.segments = {{0, -1, 0, 0}, {0, -1, 0, 1}, {2, 4, 3, 0}};
-  result.segments[0].is_earlier_session = true;
+  result.segments = {{0, -1, 0, 0, {}, true}, {0, -1, 0, 1, {}, false}, {2, 4, 3, 0, {}, false}};
   for (int i = 0; i < 5; ++i) result.frames[i].segment = i < 2 ? kNoSegment : 2;
   const std::vector<TimedPose> poses = TrajectoryOf(result);
   ASSERT_EQ(poses.size(), 5u);

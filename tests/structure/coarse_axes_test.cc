@@ -192,7 +192,7 @@ TEST(CoarseAxes, IgnoresUncertainEvidence) {
   EXPECT_FALSE(Find(view));
 }
 
-TEST(CoarseAxes, RejectsEmptyEvidence) { EXPECT_FALSE(Find({})); }
+TEST(CoarseAxes, RejectsEmptyEvidence) { EXPECT_FALSE(Find(View())); }
 
 TEST(CoarseAxes, IsIndependentOfOrderAndSigns) {
   Random random(11);
