@@ -74,8 +74,7 @@ bool IsValidDepthScale(double depth_scale, std::string* error) {
   } else {
     *error +=
         ", 1000 units per metre if depth is in millimetres; floating-point depth in metres has "
-        "none "
-        "and needs any valid number";
+        "none and needs any valid number";
   }
   return false;
 }

@@ -3,9 +3,9 @@
 
 #include "msc_vo/datasets/camera_preset.h"
 
-#include <cctype>
 #include <filesystem>
 #include <optional>
+#include <regex>
 #include <stdexcept>
 #include <system_error>
 
@@ -81,11 +81,12 @@ const CameraPreset& FindCameraPreset(const std::string& name) {
 std::string GuessCameraPreset(const std::string& directory) {
   const std::string name = Lowercase(NameOf(directory));
   for (const char digit : {'1', '2', '3'}) {
-    if (name.find(std::string("freiburg") + digit) != std::string::npos ||
-        (name.rfind(std::string("fr") + digit, 0) == 0 &&
-         (name.size() == 3 || !std::isalnum(static_cast<unsigned char>(name[3]))))) {
-      return std::string("tum-fr") + digit;
-    }
+    // "fr1", "fr1_desk" or "fr1desk", but neither "fr10_lab" nor "fr3nch_flat".
+    static const std::string kSequences =
+        "desk|xyz|rpy|room|360|floor|plant|teddy|office|long|large|walking|sitting|struct|nostruct";
+    const std::regex pattern(std::string(".*freiburg") + digit + ".*|fr" + digit +
+                             "([^a-z0-9].*|(" + kSequences + ").*)?");
+    if (std::regex_match(name, pattern)) return std::string("tum-fr") + digit;
   }
   return "";
 }

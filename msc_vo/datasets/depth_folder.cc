@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <regex>
 
 #include "msc_vo/datasets/image_folder.h"
 #include "msc_vo/text/files.h"
@@ -16,11 +17,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Tests for "aligned_depth_to_color", "depth_registered" and the like, but not "depth_unaligned".
+// Tests for "aligned_depth_to_color", "depth_registered" and the like, but not "depth_unaligned" or
+// "depth_aligned_preview".
 bool IsNamedRegistered(const std::string& name) {
-  const auto has = [&](const char* word) { return name.find(word) != std::string::npos; };
-  return has("depth") && (has("aligned") || has("registered")) && !has("unaligned") &&
-         !has("unregistered") && !has("not");
+  static const std::regex kPattern(
+      "(aligned|registered)[_-]?depth([_-]?to[_-]?(colou?r|rgb))?|"
+      "depth[_-]?(aligned|registered)([_-]?to[_-]?(colou?r|rgb))?");
+  return std::regex_match(name, kPattern);
 }
 
 }  // namespace

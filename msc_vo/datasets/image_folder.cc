@@ -26,7 +26,7 @@ bool HasImageExtension(const fs::path& path) {
          std::end(kExtensions);
 }
 
-bool IsJpeg(const fs::path& path) {
+bool IsNamedJpeg(const fs::path& path) {
   const std::string extension = Lowercase(path.extension().string());
   return extension == ".jpg" || extension == ".jpeg";
 }
@@ -36,10 +36,10 @@ void RemoveJpegCopies(std::vector<std::string>* paths) {
   const auto stem_of = [](const fs::path& path) { return path.stem().string(); };
   std::set<std::string> stems;
   for (const std::string& path : *paths) {
-    if (!IsJpeg(path)) stems.insert(stem_of(path));
+    if (!IsNamedJpeg(path)) stems.insert(stem_of(path));
   }
   const auto is_copy = [&](const std::string& path) {
-    return IsJpeg(path) && stems.count(stem_of(path)) > 0;
+    return IsNamedJpeg(path) && stems.count(stem_of(path)) > 0;
   };
   paths->erase(std::remove_if(paths->begin(), paths->end(), is_copy), paths->end());
 }

@@ -20,7 +20,7 @@ namespace msc_vo {
 
 namespace {
 
-constexpr double kRounding = 0.002;  // seconds
+constexpr double kTimeRounding = 0.0055;  // seconds, of times with two decimals
 
 // Tests whether the first number of each line counts the lines, and a time follows.
 bool AreNumbered(const std::vector<TextLine>& lines) {
@@ -115,7 +115,7 @@ void AdoptTimesOfTruth(const std::string& name, SequenceIndex* index) {
   for (const double difference : DifferencesOf(times, *index)) {
     largest = std::max(largest, std::abs(difference));
   }
-  if (largest <= kRounding) return;
+  if (largest <= kTimeRounding) return;
   SetTimes(times, index);
   index->warnings.push_back(
       name + FormatText(": the images, which have no times of their own, get those of the poses, "
@@ -129,7 +129,7 @@ void CheckTimesOfTruth(const std::string& name, SequenceIndex* index) {
   if (times.size() != index->entries.size() || times.empty()) return;
   const std::vector<double> differences = DifferencesOf(times, *index);
   const auto [least, most] = std::minmax_element(differences.begin(), differences.end());
-  if (*most - *least > kRounding || std::abs(*most) <= kRounding) return;
+  if (*most - *least > kTimeRounding || std::abs(*most) <= kTimeRounding) return;
   index->warnings.push_back(
       name + FormatText(": has as many poses as there are images, but all their frame numbers are "
                         "%.0f %s; poses and images with the same number are compared",

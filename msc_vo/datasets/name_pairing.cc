@@ -57,7 +57,7 @@ void CheckNumberOffset(const NamedImages& color, const NamedImages& depth, Seque
 }
 
 // Warns if both streams count without a gap from the same number, to different ends: the partners
-// of missing images would have other numbers.
+// of missing images would have other numbers. A recording may end between two images of a pair.
 void CheckCounters(const NamedImages& color, const NamedImages& depth, SequenceIndex* index) {
   const auto range_of = [](const NamedImages& images) {
     const auto [first, last] = std::minmax_element(images.numbers.begin(), images.numbers.end());
@@ -66,7 +66,10 @@ void CheckCounters(const NamedImages& color, const NamedImages& depth, SequenceI
   };
   const auto [color_first, color_last, color_gap] = range_of(color);
   const auto [depth_first, depth_last, depth_gap] = range_of(depth);
-  if (color_gap || depth_gap || color_first != depth_first || color_last == depth_last) return;
+  if (color_gap || depth_gap || color_first != depth_first ||
+      std::abs(color_last - depth_last) <= 1) {
+    return;
+  }
   index->warnings.push_back(FormatText(
       "%zu colour images and %zu depth images are numbered without a gap; images with the same "
       "number are paired, which is wrong if each stream counts its own images: write "

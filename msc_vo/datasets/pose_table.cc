@@ -114,7 +114,8 @@ std::vector<PoseColumns> NamedCandidates(const PoseColumns& named, size_t num_fi
   return candidates;
 }
 
-// The largest deviation from unit length of four neighbouring columns, over all finite rows.
+// The largest deviation from unit length of four neighbouring columns, over all rows with numbers
+// there.
 double QuaternionError(const std::vector<TextLine>& rows, size_t begin) {
   double worst = 0.0;
   for (const TextLine& line : rows) {
@@ -124,7 +125,7 @@ double QuaternionError(const std::vector<TextLine>& rows, size_t begin) {
       const double value = exists ? ParseNumber(line.fields[column]).value_or(HUGE_VAL) : HUGE_VAL;
       squared += value * value;
     }
-    if (!std::isnan(squared)) worst = std::max(worst, std::abs(std::sqrt(squared) - 1.0));
+    if (std::isfinite(squared)) worst = std::max(worst, std::abs(std::sqrt(squared) - 1.0));
   }
   return worst;
 }

@@ -32,8 +32,9 @@ std::string ColorFolder(const std::string& directory) {
   return "";
 }
 
-// Names a file of a folder without images.
+// Names a file of a folder without images; "" if there is no folder.
 std::string OtherFile(const std::string& folder) {
+  if (folder.empty()) return "";
   const std::vector<std::string> entries = ListFolder(folder);
   if (entries.empty()) return "";
   return "; " + *std::min_element(entries.begin(), entries.end()) +

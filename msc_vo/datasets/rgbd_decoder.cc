@@ -42,8 +42,9 @@ bool IsPng(const std::string& bytes) { return bytes.compare(0, 4, "\x89PNG") == 
 
 std::string ReadImageBytes(const std::string& path, const SequenceEntry& entry) {
   const std::string problem = FileProblem(path, kMaxImageBytes);
-  if (!problem.empty())
+  if (!problem.empty()) {
     Fail(path, entry, problem + "; restore the file, or correct or remove its line");
+  }
   return ReadFile(path, kMaxImageBytes);
 }
 

@@ -141,7 +141,8 @@ void ReadTumEntries(const std::string& directory, WholeStamps whole, SequenceInd
     return;
   }
   ImageLists images = ReadLists(directory, &index->warnings);
-  ToSeconds("rgb.txt", "depth.txt", whole, &images, index);
+  ToSeconds(fs::path(FindColorList(directory)).filename().string(),
+            fs::path(FindDepth(directory, ".txt")).filename().string(), whole, &images, index);
   PairByTime(images, MaxPairDifference(images), index);
 }
 

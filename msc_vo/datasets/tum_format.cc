@@ -19,9 +19,11 @@ namespace fs = std::filesystem;
 namespace {
 
 bool Recognises(const std::string& directory) {
-  const bool has_depth = !FindDepth(directory, ".txt").empty();
-  return HasEntry((fs::path(directory) / "rgb.txt").string()) || has_depth ||
-         !FindAssociations(directory).empty();
+  const auto has = [&](const char* name) {
+    return HasEntry((fs::path(directory) / name).string());
+  };
+  return has("rgb.txt") || has("depth.txt") || !FindAssociations(directory).empty() ||
+         (!FindColorList(directory).empty() && !FindDepth(directory, ".txt").empty());
 }
 
 SequenceIndex Read(const std::string& directory) {

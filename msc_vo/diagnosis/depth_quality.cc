@@ -76,7 +76,8 @@ void AddRange(const std::vector<float>& depths, double valid, const DepthUnits& 
                  median, Quantile(0.05, depths), Quantile(0.95, depths), 100.0 * valid);
   const Measurement measurement{median, "m"};
   if (AreShifted(depths, units) && std::abs(units.per_metre / kShiftedUnits - 1.0) > 0.1) {
-    findings->push_back(Warning(
+    const auto add = IsUsableDepth(median) ? Warning : Error;
+    findings->push_back(add(
         "depth.scale",
         FormatText("all raw depth values are multiples of 8: they may be millimetres shifted by "
                    "three bits, as in SUN3D, with a median depth of %.3f m instead of %.3f m",

@@ -111,6 +111,7 @@ std::optional<uint32_t> TiffEntry(uint32_t tag, const Bytes& bytes, ByteOrder or
   for (size_t i = 0; i < num_entries.value_or(0); ++i) {
     const size_t at = size_t{*directory} + 2 + 12 * i;
     if (bytes.Number(at, 2, order) != tag) continue;
+    if (bytes.Number(at + 4, 4, order) != 1u) return std::nullopt;  // several values, elsewhere
     return bytes.Number(at + 8, bytes.Number(at + 2, 2, order) == kShort ? 2 : 4, order);
   }
   return std::nullopt;

@@ -55,8 +55,14 @@ std::vector<double> ReadTimes(const std::string& path, size_t num_images) {
 
 std::vector<double> FindTimes(const std::string& directory, const VideoImages& video,
                               const std::vector<std::string>& depth, SequenceIndex* index) {
-  const std::string path = FindTimesFile(directory);
-  if (!path.empty()) return ReadTimes(path, depth.size());
+  if (const std::string path = FindTimesFile(directory); !path.empty()) {
+    try {
+      return ReadTimes(path, depth.size());
+    } catch (const std::runtime_error& error) {
+      if (fs::path(path).stem() == "times") throw;
+      index->warnings.push_back(error.what() + std::string("; the file is not used"));
+    }
+  }
   const NamedImages names = ReadImageNames(depth);
   if (names.certainty == NamedTimes::kCertain && names.times.size() == depth.size()) {
     return names.times;

@@ -143,8 +143,10 @@ PinholeCamera PublishedCamera(PinholeCamera camera, const RosCameraInfo& info) {
     camera.width = static_cast<int>(info.roi_width);
     camera.height = static_cast<int>(info.roi_height);
   }
-  const int x = static_cast<int>(std::max(info.binning_x, 1u));
-  const int y = static_cast<int>(std::max(info.binning_y, 1u));
+  const auto binning = [](uint32_t pixels, int size) {  // of a damaged file, at most the image
+    return static_cast<int>(std::clamp(pixels, 1u, static_cast<uint32_t>(std::max(size, 1))));
+  };
+  const int x = binning(info.binning_x, camera.width), y = binning(info.binning_y, camera.height);
   return x == 1 && y == 1 ? camera : ScaledCamera(camera, {camera.width / x, camera.height / y});
 }
 

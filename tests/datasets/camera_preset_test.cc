@@ -29,6 +29,7 @@ TEST(GuessCameraPreset, RecognisesTumFolders) {
   EXPECT_EQ(GuessCameraPreset("/data/rgbd_dataset_freiburg2_xyz"), "tum-fr2");
   EXPECT_EQ(GuessCameraPreset("/data/fr1_desk"), "tum-fr1");
   EXPECT_EQ(GuessCameraPreset("/data/freiburg1/mine"), "");
+  EXPECT_EQ(GuessCameraPreset("/data/fr1desk"), "tum-fr1");
   EXPECT_EQ(GuessCameraPreset("/data/fr10_lab"), "");
   EXPECT_EQ(GuessCameraPreset("/data/fr3nch_flat"), "");
 }

@@ -39,7 +39,16 @@ TEST_F(DepthFolderTest, IgnoresOtherNamesAndFoldersWithoutImages) {
   WriteDepth("depth_unaligned/0.png");
   WriteText("aligned_depth/readme.txt", "");
   WriteColor("aligned/0.png");
+  WriteDepth("depth_aligned_preview/0.png");
   EXPECT_EQ(FindDepth(Folder(), ""), Path("depth"));
+}
+
+TEST_F(DepthFolderTest, FilesBesideImagesAreNoLists) {
+  WriteColor("rgb/0.png");
+  WriteDepth("depth/0.png");
+  WriteText("aligned_depth_camera_info.txt", "525 525 319.5 239.5\n");
+  WriteText("aligned_depth.txt", "of the driver\n");
+  EXPECT_EQ(OpenSequence(Folder()).format, "rgb-depth");
 }
 
 TEST_F(DepthFolderTest, ReadsListsOfRegisteredDepth) {

@@ -172,6 +172,13 @@ TEST_F(TrajectoryFormatTest, RefusesQuaternionsInAnotherOrder) {
   EXPECT_EQ(Read("5 0 0 0 0.7 0 0 0.7\n").poses.size(), 1u);
 }
 
+TEST_F(TrajectoryFormatTest, ReadsPosesBesideInfiniteOnesAndBeforeFurtherColumns) {
+  EXPECT_EQ(Read("5 0 0 0 0 0 0 1\n6 0 0 0 inf inf inf inf\n").num_left_out, 1);
+  const std::string row = "5 1 2 3 0 0 0 1 1 0 0 0 1 0 0 0 1\n";  // and a rotation matrix
+  EXPECT_EQ(Read(row).poses.at(0).world_from_cam.translation(), Eigen::Vector3d(1, 2, 3));
+  EXPECT_THAT(MessageOf([&] { Read("5 0 0 0 0 0 0 1\n6 0 0 0 0 0\n"); }), Names("file:2"));
+}
+
 TEST_F(TrajectoryFormatTest, SkipsLinesBeforeTheNamesOfColumns) {
   const TrajectoryFile file = Read(
       ",,Rotation,Rotation,Rotation,Rotation,Position,Position,Position\n"

@@ -4,8 +4,8 @@ const LINE_COLORS = ["axis-0", "axis-1", "axis-2", "axis-none", "no-depth"];
 const PIXEL_SCALE = 8;  // positions of features are stored in eighths of a pixel
 
 // Draws points and lines of a view onto `context`, whose unit is a pixel of the camera and whose
-// origin is the corner of the image, half a pixel beside the centre of its first pixel; `unit`: pixels
-// of the camera per pixel of the page.
+// origin is the corner of the image, half a pixel beside the centre of its first pixel; `unit`:
+// pixels of the camera per pixel of the page.
 function drawFeatures(context, view, unit) {
   context.translate(0.5, 0.5);
   const radius = 1.7 * unit;
