@@ -44,8 +44,8 @@ SavedSubMap LargestSubMap(const std::string& file, MapContents* contents) {
   return std::move(*largest);
 }
 
-// Leaves the keyframes of the newest session with the sequence: time stamps of others say nothing
-// about its images.
+// Leaves the keyframes of the newest session with the sequence: time stamps of others do not
+// identify its images.
 void KeepSession(const RunExport& arguments, MapContents* contents) {
   if (arguments.sequence.directory.empty() || contents->sessions.size() == 1) return;
   const KeyframeRange session = FindSession(contents->sessions, arguments.sequence.directory);

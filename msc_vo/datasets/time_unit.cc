@@ -13,7 +13,7 @@ namespace msc_vo {
 
 namespace {
 
-// The units that intervals tell apart. Ticks of 100 ns are recognised as dates only.
+// The units that intervals distinguish. Ticks of 100 ns are recognised as dates only.
 constexpr TimeUnit kUnits[] = {TimeUnit::kSeconds, TimeUnit::kMilliseconds, TimeUnit::kMicroseconds,
                                TimeUnit::kNanoseconds};
 

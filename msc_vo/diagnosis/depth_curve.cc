@@ -75,7 +75,7 @@ Prediction DepthBehindLens(DepthCurve curve, double k) {
 }
 
 // Numbers of patches that agree with the first and with the second prediction, and of places with
-// the first ones. Only patches count whose measurement can tell the two apart.
+// the first ones. Only patches count whose measurement distinguishes the two.
 struct Support {
   int first = 0;
   int second = 0;

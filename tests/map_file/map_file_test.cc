@@ -208,8 +208,8 @@ TEST_F(MapFileTest, LoadsThePlanesThatWereSaved) {
   ExpectSamePlanes(load(), saved);
 }
 
-// Whoever loads a map and saves it again leaves the same bytes: rounding takes a vertex onto an
-// edge, where it is none.
+// Loading a map and saving it again leaves the same bytes: rounding moves a vertex onto an edge,
+// where it is none.
 TEST_F(MapFileTest, SavesHullsAsTheyAreLoaded) {
   PlaneFeature plane;
   plane.inverse_depth = {0.0, 0.0, 1.0};
