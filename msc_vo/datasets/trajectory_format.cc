@@ -97,8 +97,8 @@ bool HasRotation(const std::vector<double>& values, size_t begin, size_t stride)
   return RigidFromMatrix(matrix).has_value();
 }
 
-// Throws if all rows have a rotation matrix where a time and a pose are read: the columns of a
-// quaternion may have unit length in it.
+// Throws if all rows have a rotation matrix that begins where a time and a pose are read, at the
+// quaternion at the latest: the columns of a quaternion may have unit length in it.
 void RefuseMatrices(const std::vector<TextLine>& rows) {
   std::vector<std::vector<double>> table;
   for (const TextLine& line : rows) {
@@ -106,8 +106,8 @@ void RefuseMatrices(const std::vector<TextLine>& rows) {
     if (AreFinite(values)) table.push_back(values);
   }
   if (table.empty()) return;
-  constexpr size_t kNumRead = 8;  // further columns are ignored
-  for (size_t begin = 0; begin < kNumRead && begin + 9 <= table.front().size(); ++begin) {
+  constexpr size_t kQuaternion = 4;  // further columns than its own are ignored
+  for (size_t begin = 0; begin <= kQuaternion && begin + 9 <= table.front().size(); ++begin) {
     for (const size_t stride : {3, 4}) {
       const bool is_matrix = std::all_of(table.begin(), table.end(), [&](const auto& values) {
         return HasRotation(values, begin, stride);
