@@ -56,11 +56,11 @@ class BagContainer : public ImageContainer {
 ImageTopic ReadTopic(const BagFile& bag, const BagTopic& topic) {
   return bag.Parse(topic.name, 0, [&](std::string_view bytes, RosSerialization form) -> ImageTopic {
     if (topic.type == kCompressedType) {
-      const std::string format = ParseRosCompressedImage(bytes, form).format;
-      return {topic.name, KindOfFormat(format), true, format};
+      const RosCompressedImage image = ParseRosCompressedImage(bytes, form);
+      return {topic.name, KindOfFormat(image.format), true, image.format, image.header.frame};
     }
-    const std::string encoding = ParseRosImage(bytes, form).encoding;
-    return {topic.name, KindOfEncoding(encoding), false, encoding};
+    const RosImage image = ParseRosImage(bytes, form);
+    return {topic.name, KindOfEncoding(image.encoding), false, image.encoding, image.header.frame};
   });
 }
 
@@ -75,7 +75,7 @@ std::vector<ImageTopic> FindImageTopics(const BagFile& bag, std::vector<std::str
       topics.push_back(ReadTopic(bag, topic));
     } catch (const std::runtime_error& error) {  // another topic may be good
       warnings->push_back(error.what());
-      topics.push_back({topic.name, RosImageKind::kOther, is_compressed, ""});
+      topics.push_back({topic.name, RosImageKind::kOther, is_compressed, "", ""});
     }
   }
   return topics;
@@ -127,15 +127,21 @@ std::vector<MessageTimes> ListImages(const ImageTopic& topic, const BagFile& bag
   return times;
 }
 
-// The camera of depth images that are not named as registered and have another CameraInfo than the
-// colour images; none if there is no such. Its place is not in the CameraInfo.
+// Tests whether depth images are registered to colour by the name of their topic or, as REP 118 of
+// ROS has it, because they are in the coordinate frame of the colour images.
+bool AreRegistered(const ImageTopic& depth, const ImageTopic& color) {
+  return IsRegistered(depth) || (!depth.frame.empty() && depth.frame == color.frame);
+}
+
+// The camera of depth images that are not registered, if their CameraInfo is another one than that
+// of the colour images; none otherwise. Its place is not in the CameraInfo.
 std::optional<DepthCamera> SeparateDepthCamera(const BagFile& bag, const ImageTopic& depth,
                                                const Calibration& color) {
-  constexpr double kTolerance = 0.01;  // relative to the focal length
+  // Relative to the focal length: 3 pixels at the border of an image of 640.
+  constexpr double kTolerance = 0.01;
   const std::string name = CameraInfoTopicOf(depth.name);
   const BagTopic* info = bag.FindTopic(name);
-  if (IsRegistered(depth) || info == nullptr || info->type != kCameraInfoType ||
-      bag.NumMessages(name) == 0) {
+  if (info == nullptr || info->type != kCameraInfoType || bag.NumMessages(name) == 0) {
     return std::nullopt;
   }
   std::string problem;
@@ -180,11 +186,14 @@ void ReadCamera(const BagFile& bag, const ImageTopic& color, const ImageTopic& d
   std::string problem;
   depth_camera = RealSenseDepthCamera(bag, color.name, depth.name, &problem);
   if (depth_camera) return;
-  depth_camera = SeparateDepthCamera(bag, depth, *index->calibration);
+  if (!problem.empty() || !AreRegistered(depth, color)) {
+    depth_camera = SeparateDepthCamera(bag, depth, *index->calibration);
+  }
   if (depth_camera) {
     index->warnings.push_back(
         CameraInfoTopicOf(depth.name) + " of the depth images is another camera than that of " +
-        color.name + ", and they are not named as registered to colour; its place is not known" +
+        color.name +
+        ", and neither topic nor frame names them as registered; its place is not known" +
         (problem.empty() ? "" : " (" + problem + ")") +
         " and taken for that of the colour camera: record registered depth, or set "
         "camera.depth_camera.translation and rotation");

@@ -31,6 +31,7 @@ class CdrFields : public RosFields {
     Guarded([&] { cdr_.read_encapsulation(); });
   }
 
+  bool IsAtEnd() const override { return PositionOf(cdr_) >= message_.size(); }
   uint8_t ReadByte() override { return Read<uint8_t>(); }
   uint32_t ReadWord() override { return Read<uint32_t>(); }
   float ReadFloat() override { return Read<float>(); }

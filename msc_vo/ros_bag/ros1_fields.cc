@@ -12,6 +12,7 @@ class Ros1Fields : public RosFields {
  public:
   explicit Ros1Fields(std::string_view message) : fields_(message) {}
 
+  bool IsAtEnd() const override { return fields_.size() == 0; }
   uint8_t ReadByte() override { return fields_.Read<uint8_t>(); }
   uint32_t ReadWord() override { return fields_.Read<uint32_t>(); }
   float ReadFloat() override { return fields_.Read<float>(); }

@@ -18,6 +18,8 @@ class RosFields {
  public:
   virtual ~RosFields() = default;
 
+  /// Tests whether all bytes have been read.
+  virtual bool IsAtEnd() const = 0;
   virtual uint8_t ReadByte() = 0;
   virtual uint32_t ReadWord() = 0;
   virtual float ReadFloat() = 0;
@@ -28,8 +30,7 @@ class RosFields {
   virtual RosHeader ReadHeader() {
     const uint32_t seconds = ReadWord();
     const uint32_t nanoseconds = ReadWord();
-    ReadBytes();  // name of the frame
-    return {SecondsOf(seconds, nanoseconds)};
+    return {SecondsOf(seconds, nanoseconds), ReadString()};
   }
 
   void ReadDoubles(double* values, size_t count) {

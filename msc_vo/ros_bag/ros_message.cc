@@ -3,8 +3,6 @@
 
 #include "msc_vo/ros_bag/ros_message.h"
 
-#include <array>
-#include <cstdint>
 #include <stdexcept>
 
 #include "msc_vo/datasets/calibration.h"
@@ -18,23 +16,6 @@ namespace {
 
 std::unique_ptr<RosFields> OpenFields(std::string_view bytes, RosSerialization serialization) {
   return serialization == RosSerialization::kCdr ? OpenCdrFields(bytes) : OpenRos1Fields(bytes);
-}
-
-// Reads binning and region of a CameraInfo. A message that ends before them is of the whole image.
-void ReadRegion(RosFields* fields, RosCameraInfo* info) {
-  std::array<uint32_t, 6> words{};
-  try {
-    for (uint32_t& word : words) word = fields->ReadWord();
-  } catch (const std::runtime_error&) {
-    return;
-  }
-  const auto [binning_x, binning_y, x, y, height, width] = words;
-  info->binning_x = binning_x;
-  info->binning_y = binning_y;
-  info->roi_x = x;
-  info->roi_y = y;
-  info->roi_height = height;
-  info->roi_width = width;
 }
 
 }  // namespace
@@ -92,7 +73,13 @@ RosCameraInfo ParseRosCameraInfo(std::string_view bytes, RosSerialization serial
   fields->ReadDoubles(info.k, 9);
   fields->ReadDoubles(info.r, 9);
   fields->ReadDoubles(info.p, 12);
-  ReadRegion(fields.get(), &info);
+  if (fields->IsAtEnd()) return info;  // some writers leave out the rest
+  info.binning_x = fields->ReadWord();
+  info.binning_y = fields->ReadWord();
+  info.roi_x = fields->ReadWord();
+  info.roi_y = fields->ReadWord();
+  info.roi_height = fields->ReadWord();
+  info.roi_width = fields->ReadWord();
   return info;
 }
 

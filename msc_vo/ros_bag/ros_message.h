@@ -30,6 +30,7 @@ double SecondsOf(int64_t nanoseconds);
 /// std_msgs/Header.
 struct RosHeader {
   double stamp = 0.0;  ///< seconds; the double nearest to the decimal number of the stamp
+  std::string frame;   ///< name of the coordinate frame
 };
 
 /// sensor_msgs/Image.

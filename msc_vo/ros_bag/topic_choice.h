@@ -16,6 +16,7 @@ struct ImageTopic {
   RosImageKind kind = RosImageKind::kOther;
   bool is_compressed = false;
   std::string encoding = {};  ///< of the first image, for messages
+  std::string frame = {};     ///< coordinate frame of the first image
 };
 
 /// Returns the words of a name in lower case, without numbers at their end:

@@ -50,12 +50,14 @@ class BagSequenceTest : public TemporaryFolder {
       bag->Write("/camera/rgb/image_color", "sensor_msgs/Image", recorded,
                  ImageMessage(100, nanoseconds, color, "bgr8", serialization));
       bag->Write(depth_topic_, "sensor_msgs/Image", recorded + 0.01,
-                 ImageMessage(100, nanoseconds + 5000000, depth, depth_encoding, serialization));
+                 ImageMessage(100, nanoseconds + 5000000, depth, depth_encoding, serialization,
+                              depth_frame_));
     }
     bag->Write("/camera/ir/image", "sensor_msgs/Image", 9.0,
                ImageMessage(100, 0, cv::Mat::zeros(24, 32, CV_8UC1), "mono8", serialization));
   }
   std::string info_topic_ = "/camera/rgb/camera_info", depth_topic_ = "/camera/depth/image";
+  std::string depth_frame_ = "/camera";
   int recordings_ = 0;
 
   static void ExpectFivePairs(const std::string& path) {
@@ -165,7 +167,10 @@ TEST_F(BagSequenceTest, WarnsOfACameraInfoOfDepthThatIsNotRegistered) {
 }
 
 TEST_F(BagSequenceTest, DepthWithACameraInfoOfItsOwnIsNotRegistered) {
-  for (const double fx : {300.0, 525.5}) {
+  for (const auto& [fx, frame] :
+       {std::pair(300.0, "/depth"), std::pair(300.0, "/camera"), std::pair(525.5, "/depth")}) {
+    const bool is_separate = fx == 300.0 && frame == std::string("/depth");
+    depth_frame_ = frame;
     std::unique_ptr<BagWriter> bag = WriteRos1Bag(Path("x.bag"));
     CameraInfoFields info;
     info.fx = fx;
@@ -174,8 +179,8 @@ TEST_F(BagSequenceTest, DepthWithACameraInfoOfItsOwnIsNotRegistered) {
     WriteBag(std::move(bag), "16UC1");
     const SequenceIndex index = OpenBag(Path("x.bag"));
     EXPECT_EQ(index.calibration->camera.fx, 525.0);
-    EXPECT_EQ(index.calibration->depth_camera.has_value(), fx == 300.0);
-    EXPECT_EQ(index.warnings.empty(), fx != 300.0);
+    EXPECT_EQ(index.calibration->depth_camera.has_value(), is_separate);
+    EXPECT_EQ(index.warnings.empty(), !is_separate);
   }
 }
 

@@ -34,9 +34,10 @@ class MessageBytes {
     return *this;
   }
   MessageBytes& AddText(const std::string& text) { return AddArray(is_cdr_ ? text + '\0' : text); }
-  MessageBytes& AddHeader(uint32_t seconds, uint32_t nanoseconds) {
+  MessageBytes& AddHeader(uint32_t seconds, uint32_t nanoseconds,
+                          const std::string& frame = "/camera") {
     if (!is_cdr_) Add(uint32_t{7});
-    return Add(seconds).Add(nanoseconds).AddText("/camera");
+    return Add(seconds).Add(nanoseconds).AddText(frame);
   }
   template <typename Numbers>
   MessageBytes& AddEach(const Numbers& values) {
@@ -52,11 +53,12 @@ class MessageBytes {
 
 inline std::string ImageMessage(uint32_t seconds, uint32_t nanoseconds, const cv::Mat& image,
                                 const std::string& encoding,
-                                RosSerialization serialization = RosSerialization::kRos1) {
+                                RosSerialization serialization = RosSerialization::kRos1,
+                                const std::string& frame = "/camera") {
   const cv::Mat pixels = image.clone();  // continuous
   const size_t step = pixels.cols * pixels.elemSize();
   return MessageBytes(serialization)
-      .AddHeader(seconds, nanoseconds)
+      .AddHeader(seconds, nanoseconds, frame)
       .Add(static_cast<uint32_t>(pixels.rows))
       .Add(static_cast<uint32_t>(pixels.cols))
       .AddText(encoding)

@@ -24,6 +24,7 @@ std::string Png(const cv::Mat& image) {
 TEST(RosMessage, ReadsStampsAsInTextFiles) {
   const std::string bytes = MessageBytes().AddHeader(1305031102, 175304000).bytes();
   EXPECT_EQ(ParseRosHeader(bytes, kRos1).stamp, 1305031102.175304);
+  EXPECT_EQ(ParseRosHeader(bytes, kRos1).frame, "/camera");
 }
 
 TEST(RosMessage, RefusesShortMessages) {
