@@ -79,16 +79,15 @@ const CameraPreset& FindCameraPreset(const std::string& name) {
 }
 
 std::string GuessCameraPreset(const std::string& directory) {
+  // "fr1", "fr1_desk" or, with the first word of a sequence of TUM, "fr1desk", but neither
+  // "fr10_lab" nor "fr3nch_flat".
+  static const std::regex kPattern(
+      ".*freiburg([123]).*|fr([123])(|[^a-z0-9].*|(desk|xyz|rpy|room|360|floor|plant|teddy|office|"
+      "long|large|walking|sitting|struct|nostruct).*)");
   const std::string name = Lowercase(NameOf(directory));
-  for (const char digit : {'1', '2', '3'}) {
-    // "fr1", "fr1_desk" or "fr1desk", but neither "fr10_lab" nor "fr3nch_flat".
-    static const std::string kSequences =
-        "desk|xyz|rpy|room|360|floor|plant|teddy|office|long|large|walking|sitting|struct|nostruct";
-    const std::regex pattern(std::string(".*freiburg") + digit + ".*|fr" + digit +
-                             "([^a-z0-9].*|(" + kSequences + ").*)?");
-    if (std::regex_match(name, pattern)) return std::string("tum-fr") + digit;
-  }
-  return "";
+  std::smatch match;
+  if (!std::regex_match(name, match, kPattern)) return "";
+  return "tum-fr" + match.str(1) + match.str(2);
 }
 
 }  // namespace msc_vo

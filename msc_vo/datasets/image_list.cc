@@ -53,8 +53,8 @@ void CorrectFractions(size_t field, std::vector<TextLine>* lines,
                       std::vector<std::string>* warnings) {
   if (!RestoreFractions(field, lines)) return;
   warnings->push_back(lines->front().file +
-                      ": behind the point, the stamps have whole nanoseconds without zeros in "
-                      "front; they are read as such");
+                      ": the stamps have nanoseconds without leading zeros behind the point, "
+                      "and are read as such");
 }
 
 // The path in a field, which may be quoted or that of another system.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 
@@ -20,7 +21,8 @@ namespace msc_vo {
 
 namespace {
 
-constexpr double kTimeRounding = 0.0055;  // seconds, of times with two decimals
+// Seconds: half of the last of two decimals, and the rounding of the sum.
+constexpr double kTimeRounding = 0.0055;
 
 // Tests whether the first number of each line counts the lines, and a time follows.
 bool AreNumbered(const std::vector<TextLine>& lines) {
@@ -53,9 +55,6 @@ std::vector<double> DifferencesOf(const std::vector<double>& times, const Sequen
   }
   return differences;
 }
-
-// Images per second.
-double RateOf(const std::vector<double>& times) { return 1.0 / MedianInterval(times); }
 
 }  // namespace
 
@@ -115,12 +114,14 @@ void AdoptTimesOfTruth(const std::string& name, SequenceIndex* index) {
   for (const double difference : DifferencesOf(times, *index)) {
     largest = std::max(largest, std::abs(difference));
   }
-  if (largest <= kTimeRounding) return;
+  const bool ascend =
+      std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
+  if (largest <= kTimeRounding || !ascend) return;
   SetTimes(times, index);
   index->warnings.push_back(
       name + FormatText(": the images, which have no times of their own, get those of the poses, "
                         "%.3g per second, image by image",
-                        RateOf(times)));
+                        1.0 / MedianInterval(times)));
 }
 
 void CheckTimesOfTruth(const std::string& name, SequenceIndex* index) {

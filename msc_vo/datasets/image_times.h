@@ -23,8 +23,8 @@ std::vector<double> ReadTimesFile(const std::string& path);
 void AdoptTimesOfFile(const std::string& directory, SequenceIndex* index);
 
 /// Gives the images of a sequence whose times are assumed those of the ground truth, pose by pose,
-/// if it has a pose for each of them at other times. Adds a warning, also if the numbers differ.
-/// `name` is that of the file. Does nothing if the times are known.
+/// if it has a pose for each of them, at ascending other times. Adds a warning, also if the numbers
+/// of poses and images differ. `name` is that of the file. Does nothing if the times are known.
 void AdoptTimesOfTruth(const std::string& name, SequenceIndex* index);
 
 /// Adds a warning if the times of the poses, which are as many as the images, differ from those of

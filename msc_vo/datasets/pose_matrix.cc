@@ -48,8 +48,9 @@ std::optional<Rigid3> RigidFromMatrix(const Eigen::Matrix4d& matrix) {
   return Rigid3(Eigen::Quaterniond(nearest).normalized(), matrix.topRightCorner<3, 1>());
 }
 
-void RefuseTransposed(const Eigen::Matrix4d& matrix, const std::string& place) {
-  if (RigidFromMatrix(matrix) || !RigidFromMatrix(matrix.transpose())) return;
+std::optional<Rigid3> PoseFromMatrix(const Eigen::Matrix4d& matrix, const std::string& place) {
+  std::optional<Rigid3> pose = RigidFromMatrix(matrix);
+  if (pose || !RigidFromMatrix(matrix.transpose())) return pose;
   throw std::runtime_error(place +
                            ": the last row of the pose holds the translation; write the "
                            "transposed matrix, [R t; 0 0 0 1]");
@@ -61,9 +62,7 @@ void ReadPoseFiles(const std::function<std::string(const SequenceEntry&)>& pose_
   for (const SequenceEntry& entry : index->entries) {
     const std::string path = pose_path(entry);
     if (!HasEntry(path)) continue;
-    const Eigen::Matrix4d matrix = ReadMatrix(path, 4, 4);
-    const std::optional<Rigid3> pose = RigidFromMatrix(matrix);
-    RefuseTransposed(matrix, path);
+    const std::optional<Rigid3> pose = PoseFromMatrix(ReadMatrix(path, 4, 4), path);
     if (pose) {
       index->ground_truth.push_back({entry.timestamp, *pose});
     } else {

@@ -25,8 +25,9 @@ Eigen::MatrixXd ReadMatrix(const std::string& path, int rows, int columns);
 /// mark lost poses this way.
 std::optional<Rigid3> RigidFromMatrix(const Eigen::Matrix4d& matrix);
 
-/// Throws std::runtime_error, naming the place of the matrix, if only its transpose is a pose.
-void RefuseTransposed(const Eigen::Matrix4d& matrix, const std::string& place);
+/// As RigidFromMatrix(). Throws std::runtime_error, naming the place of the matrix in a file, if
+/// only its transpose is a pose.
+std::optional<Rigid3> PoseFromMatrix(const Eigen::Matrix4d& matrix, const std::string& place);
 
 /// Reads the ground truth of a layout with one file per image, which contains the 4x4 matrix
 /// world_from_cam. Missing files are ignored. Adds a warning with the number of invalid poses.

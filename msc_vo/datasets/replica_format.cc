@@ -46,8 +46,7 @@ std::vector<std::optional<Rigid3>> ReadPoseRows(const std::string& path) {
     const std::vector<double> values = ParseNumbers(line);
     const Eigen::Matrix4d matrix =
         Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(values.data());
-    RefuseTransposed(matrix, line.Where());
-    poses.push_back(RigidFromMatrix(matrix));
+    poses.push_back(PoseFromMatrix(matrix, line.Where()));
   }
   return poses;
 }

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
 // 7-Scenes and 3DMatch: frame-XXXXXX.color.png, .depth.png (millimetres, 65535: invalid) and
-// .pose.txt (4x4 matrix world_from_cam); 3DMatch adds camera-intrinsics.txt,
-// BundleFusion and 12-Scenes info.txt or _info.txt.
+// .pose.txt (4x4 matrix world_from_cam); 3DMatch adds camera-intrinsics.txt, BundleFusion and
+// 12-Scenes info.txt or _info.txt.
 
 #include <filesystem>
 #include <optional>
@@ -61,7 +61,7 @@ bool ReadInfo(const std::string& path, SequenceIndex* index) {
   const std::vector<double> height = NumbersOf("m_colorHeight", lines);
   const std::vector<double> units = NumbersOf("m_depthShift", lines);
   if (k.size() != 16 || width.size() != 1 || height.size() != 1) return false;
-  constexpr double kMaxSize = 65535.0;
+  constexpr double kMaxSize = 65535.0;  // as in headers of JPEG files
   const auto is_size = [](double size) { return size >= 1.0 && size <= kMaxSize; };
   if (!is_size(width[0]) || !is_size(height[0])) return false;
   const ImageSize color = FirstImageSize(*index, ImageKind::kColor);

@@ -15,13 +15,13 @@ namespace msc_vo {
 /// Empty if they are precise to a millisecond.
 std::string DescribeLostDigits(const std::vector<std::string>& stamps);
 
-/// Adds the zeros in front of fractions of a second that are whole numbers of milliseconds,
+/// Adds the leading zeros of fractions of a second that are whole numbers of milliseconds,
 /// microseconds or nanoseconds: {"5", "66"} -> {"005", "066"}. Returns fractions of more than nine
 /// digits as they are.
 std::vector<std::string> PadFractions(std::vector<std::string> fractions);
 
 /// Corrects the stamps in a field of the lines if they were written as seconds, a point and a whole
-/// number of nanoseconds, without its zeros in front: if they ascend with these zeros only. Returns
+/// number of nanoseconds without leading zeros: if they ascend with these zeros only. Returns
 /// whether it did.
 bool RestoreFractions(size_t field, std::vector<TextLine>* lines);
 

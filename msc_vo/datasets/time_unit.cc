@@ -114,7 +114,7 @@ TimeUnit GuessTimeUnit(const std::vector<double>& stamps, const std::optional<Ti
 }
 
 std::string DescribeSlowRate(double interval) {
-  constexpr double kLongInterval = 0.2;  // seconds
+  constexpr double kLongInterval = 0.2;  // seconds; RGB-D cameras rarely have fewer images
   if (interval <= kLongInterval) return "";
   return FormatText(
       ", %.1f images per second; if there were more, the unit is another one: write the times in "

@@ -92,15 +92,20 @@ void ToSeconds(const std::string& color_name, const std::string& depth_name, Who
   ToSeconds(depth_name, &ListedImage::stamp, whole, range, &images->depth, index);
 }
 
-ImageLists ReadLists(const fs::path& folder, std::vector<std::string>* warnings) {
+// Reads the lists of a folder, with stamps in seconds.
+ImageLists ReadLists(const fs::path& folder, WholeStamps whole, SequenceIndex* index) {
   const std::string color = FindColorList(folder.string());
-  const std::string depth = FindDepth(folder.string(), ".txt", warnings);
+  const std::string depth = FindDepth(folder.string(), ".txt", &index->warnings);
   if (color.empty() || depth.empty()) {
     throw std::runtime_error((folder / (color.empty() ? "rgb.txt" : "depth.txt")).string() +
                              ": does not exist; a TUM folder needs rgb.txt and depth.txt (or "
                              "associations.txt). --format rgb-depth pairs rgb/ and depth/ by name");
   }
-  return {ReadImageList(color, warnings), ReadImageList(depth, warnings)};
+  ImageLists images = {ReadImageList(color, &index->warnings),
+                       ReadImageList(depth, &index->warnings)};
+  ToSeconds(fs::path(color).filename().string(), fs::path(depth).filename().string(), whole,
+            &images, index);
+  return images;
 }
 
 // Warns if an association file has far fewer rows than the lists beside it.
@@ -108,7 +113,7 @@ void CheckAssociated(const std::string& directory, const std::string& name, size
                      SequenceIndex* index) {
   constexpr double kUsual = 0.9;  // ratio; some images have no partner
   const std::string color = FindColorList(directory);
-  const std::string depth = FindDepth(directory, ".txt", nullptr);
+  const std::string depth = FindDepth(directory, ".txt");
   if (color.empty() || depth.empty()) return;
   const size_t num_listed = std::min(ReadTextLines(color).size(), ReadTextLines(depth).size());
   if (static_cast<double>(num_rows) >= kUsual * static_cast<double>(num_listed)) return;
@@ -140,9 +145,7 @@ void ReadTumEntries(const std::string& directory, WholeStamps whole, SequenceInd
     PairByRow(images, index);
     return;
   }
-  ImageLists images = ReadLists(directory, &index->warnings);
-  ToSeconds(fs::path(FindColorList(directory)).filename().string(),
-            fs::path(FindDepth(directory, ".txt")).filename().string(), whole, &images, index);
+  const ImageLists images = ReadLists(directory, whole, index);
   PairByTime(images, MaxPairDifference(images), index);
 }
 
@@ -168,7 +171,11 @@ void ReadGroundTruthFile(const std::string& path, WholeStamps whole, SequenceInd
       RangeOf(StampsOf(index->entries, &SequenceEntry::timestamp), index->stamp_unit);
   const bool are_numbers = !file.unit && ToSeconds(name, &TimedPose::timestamp, whole, images,
                                                    &index->ground_truth, index);
-  are_numbers ? CheckTimesOfTruth(name, index) : AdoptTimesOfTruth(name, index);
+  if (are_numbers) {
+    CheckTimesOfTruth(name, index);
+  } else {
+    AdoptTimesOfTruth(name, index);
+  }
 }
 
 void ReadFolderCamera(const std::string& directory, SequenceIndex* index) {

@@ -118,7 +118,8 @@ std::optional<uint32_t> TiffEntry(uint32_t tag, const Bytes& bytes, ByteOrder or
 }
 
 std::optional<ImageSize> TiffSize(const Bytes& bytes, ByteOrder order) {
-  return MakeSize(TiffEntry(256, bytes, order), TiffEntry(257, bytes, order));
+  constexpr uint32_t kWidthTag = 256, kHeightTag = 257;
+  return MakeSize(TiffEntry(kWidthTag, bytes, order), TiffEntry(kHeightTag, bytes, order));
 }
 
 std::optional<ImageSize> WebpSize(const Bytes& bytes) {

@@ -3,7 +3,8 @@
 
 // A video of the colour images and a folder with a depth image for each of them: color.mp4 (colour,
 // rgb, video; .mp4, .mov, .mkv, .avi) and depth/. times.txt may give the times, a line for each
-// image; camera.txt and groundtruth.txt are as in a TUM folder.
+// image, or timestamps.txt, which is ignored if it does not fit; camera.txt and groundtruth.txt are
+// as in a TUM folder.
 
 #include <filesystem>
 #include <stdexcept>
@@ -59,7 +60,7 @@ std::vector<double> FindTimes(const std::string& directory, const VideoImages& v
     try {
       return ReadTimes(path, depth.size());
     } catch (const std::runtime_error& error) {
-      if (fs::path(path).stem() == "times") throw;
+      if (fs::path(path).stem() == "times") throw;  // the other one may be of another stream
       index->warnings.push_back(error.what() + std::string("; the file is not used"));
     }
   }

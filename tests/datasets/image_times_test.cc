@@ -61,10 +61,14 @@ TEST_F(ImageTimesTest, PosesAt30HertzConfirmTheTimes) {
   EXPECT_THAT(Open(Times(0.0, 30.0)).warnings, IsEmpty());
 }
 
-TEST_F(ImageTimesTest, OtherNumbersOfPosesDoNotTellTheTimes) {
+TEST_F(ImageTimesTest, OtherNumbersOfPosesDoNotGiveTheTimes) {
   const SequenceIndex index = Open(Times(0.0, 25.0, kImages + 1));
   EXPECT_DOUBLE_EQ(index.entries[1].timestamp, 1.0 / 30.0);
   EXPECT_THAT(index.warnings, ElementsAre(Names("groundtruth.txt", "7", "6", "times.txt")));
+}
+
+TEST_F(ImageTimesTest, PosesOfEqualTimesDoNotGiveTheTimes) {
+  EXPECT_DOUBLE_EQ(Open({0.0, 0.1, 0.1, 0.2, 0.3, 0.4}).entries[1].timestamp, 1.0 / 30.0);
 }
 
 TEST_F(ImageTimesTest, NumbersOfPosesMayBeginElsewhere) {
