@@ -209,10 +209,9 @@ void AddWarnings(const RgbdDecoder& decoder, const std::vector<std::string>& che
         "them; are they on the clock of the images?");
   }
   PrintWarnings(own);
-  for (const std::vector<std::string>& added : {check_warnings, own}) {
-    std::vector<std::string>& warnings = run->context.sequence.warnings;
-    warnings.insert(warnings.end(), added.begin(), added.end());
-  }
+  std::vector<std::string>& warnings = run->context.sequence.warnings;
+  warnings.insert(warnings.end(), check_warnings.begin(), check_warnings.end());
+  warnings.insert(warnings.end(), own.begin(), own.end());
 }
 
 // Seconds between two saves of the map. In real time, images do not wait for the disk.

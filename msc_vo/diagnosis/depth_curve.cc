@@ -31,13 +31,12 @@ constexpr double kMaxSlope = 5.0;
 // supports the curve that it is nearer to than this ratio of their difference.
 constexpr double kMinSigmas = 4.0;
 constexpr double kTolerance = 0.25;
-// Fewest supporting patches in excess of those by chance, and ratio to the others: surfaces that
-// are not plane support two curves about equally. Of sequences that are described right, at most
-// 0.4 times as many patches support another curve as depth, see docs/lab/depth_curve.md.
+// Fewest supporting patches in excess of those by chance, and fewest places of the image that they
+// are at; and ratio to the others: surfaces that are not plane support two curves about equally. Of
+// sequences that are described right, at most 0.4 times as many patches support another curve as
+// depth, see docs/lab/depth_curve.md.
 constexpr int kMinVotes = 10;
 constexpr int kMinRatio = 2;
-// Fewest places in the image whose patches support the curve.
-constexpr int kMinPlaces = 10;
 // A curve with a parameter must gain so much over inverse depth, which has none.
 constexpr double kMinGain = 1.2;
 
@@ -158,7 +157,7 @@ double Score(const DepthCurveTest::Votes& votes) {
 }  // namespace
 
 bool DepthCurveTest::Votes::ProveCurve() const {
-  return Proves(num_curve, num_depth) && num_curve_places >= kMinPlaces;
+  return Proves(num_curve, num_depth) && num_curve_places >= kMinVotes;
 }
 
 bool DepthCurveTest::Votes::ProveDepth() const { return Proves(num_depth, num_curve); }

@@ -264,18 +264,12 @@ Findings CheckSequenceQuickly(const RgbdDecoder& decoder) {
 }
 
 bool HasRegisteredEdges(const RgbdDecoder& decoder) {
-  std::vector<EdgeAlignment> alignments;
-  const int count = std::min(kQuickImages, decoder.size());
-  for (int k = 0; k < count; ++k) {
-    try {
-      const RgbdImage image = decoder.Decode(SampleIndex(k, count, decoder.size()));
-      alignments.push_back(AlignEdges(image.gray, image.depth, false));
-    } catch (const UnreadableImage&) {
-      continue;  // reported by the run
-    }
-  }
+  const Calibration& calibration = decoder.calibration();
+  DepthCurveTest curve(calibration.camera, calibration.distortion, calibration.depth_scale);
+  const SampleMeasurements sample =
+      MeasureSample(decoder, std::min(kQuickImages, decoder.size()), std::nullopt, &curve);
   Findings findings;
-  AddRegistrationFindings(alignments, decoder.calibration().camera.width, &findings);
+  AddRegistrationFindings(sample.alignments, calibration.camera.width, &findings);
   // Without a value, there are too few edges.
   return findings.front().severity == Severity::kGood && findings.front().value.has_value();
 }

@@ -388,8 +388,9 @@ std::string DescribeOrientationContradiction(const Poses& reference, const Poses
         !order || axes.error < kSimpler * order->error ||
         (is_determined && axes.position_error < kBetter * order->position_error);
     if (axes.error < limit && angle > kMinTurn && is_preferred) {
-      const double smallest = MomentsOf(reference, estimate, 0, reference.size()).common.z();
-      return DescribeAxes(axes, given, estimate_is_own, smallest < 0.0);
+      const bool is_reflected =
+          MomentsOf(reference, estimate, 0, reference.size()).common.z() < 0.0;
+      return DescribeAxes(axes, given, estimate_is_own, is_reflected);
     }
   }
   return order ? DescribeOrders(orders, order->error, given) : "";

@@ -21,6 +21,6 @@ FrameResult Localizer::Process(const RgbdImage& image) {
   return KeepLocalizedPose(num_worlds_, odometry_.Process(image));
 }
 
-OdometryResult Localizer::Finish() { return odometry_.Finish(true); }
+OdometryResult Localizer::Finish() { return odometry_.Finish(/*only_localized=*/true); }
 
 }  // namespace msc_vo

@@ -203,7 +203,7 @@ TEST(DepthCurve, IsNotToldByCurvedSurfaces) {
 
 // Images of a wall with an area of inverted depth, which images of other sequences may show by
 // chance.
-TEST(DepthCurve, IsNotToldByASingleSurfaceThatAllImagesRepeat) {
+TEST(DepthCurve, IsNotProvenByASingleSurfaceThatAllImagesRepeat) {
   DepthCurveTest test(kCamera, {}, kScale);
   cv::Mat depth(kCamera.height, kCamera.width, CV_32FC1, cv::Scalar(2));
   for (int y = 50; y < 70; ++y) {
@@ -216,7 +216,7 @@ TEST(DepthCurve, IsNotToldByASingleSurfaceThatAllImagesRepeat) {
 
 // Matchers with large windows make slopes of the steps between two walls, at other places in each
 // image.
-TEST(DepthCurve, IsNotToldBySmoothedDepthEdges) {
+TEST(DepthCurve, IsNotProvenBySmoothedDepthEdges) {
   DepthCurveTest test(kCamera, {}, kScale);
   for (int i = 0; i < 30; ++i) {
     cv::Mat depth(kCamera.height, kCamera.width, CV_32FC1);
