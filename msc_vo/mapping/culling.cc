@@ -18,6 +18,20 @@ constexpr int kMinObservations = 2;
 // Other keyframes that must observe a landmark of a redundant keyframe, as in ORB-SLAM.
 constexpr int kRedundantObservers = 3;
 
+template <typename L>
+void CreateKind(const Keyframe& keyframe, std::set<LandmarkId>* probation, Map* map) {
+  const Rigid3 world_from_cam = keyframe.cam_from_world.Inverse();
+  const auto& features = FeaturesOf<L>(*keyframe.frame);
+  for (size_t i = 0; i < features.size(); ++i) {
+    const int feature = static_cast<int>(i);
+    if (SlotsOf<L>(keyframe)[i] != kNoId || !features[i].HasDepth() || features[i].dynamic) {
+      continue;
+    }
+    probation->insert(
+        map->Add<L>(keyframe.id, feature, world_from_cam * L::InCamera(*keyframe.frame, feature)));
+  }
+}
+
 enum class ProbationState { kPending, kPassed, kFailed };
 
 ProbationState Evaluate(const CullingOptions& options, KeyframeId newest,
@@ -88,6 +102,14 @@ bool IsRedundant(const CullingOptions& options, const Map& map, const KeyframeIn
 }
 
 }  // namespace
+
+void CreateLandmarks(KeyframeId id, Probation* probation, Map* map) {
+  const Keyframe keyframe = *map->FindKeyframe(id);  // a copy: adding landmarks changes it
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    CreateKind<L>(keyframe, &probation->Of<L>(), map);
+  });
+}
 
 void CullLandmarks(const CullingOptions& options, KeyframeId newest, Probation* probation,
                    Map* map) {

@@ -24,6 +24,10 @@ struct CullingOptions {
 /// Landmarks on probation.
 using Probation = PerKind<std::set<LandmarkId>>;
 
+/// Creates a landmark on probation from every feature of `keyframe` that has a depth and no
+/// landmark, except on dynamic objects.
+void CreateLandmarks(KeyframeId keyframe, Probation* probation, Map* map);
+
 /// Removes the landmarks on probation that fail the tests of CullingOptions, and ends the probation
 /// of those that pass.
 void CullLandmarks(const CullingOptions& options, KeyframeId newest, Probation* probation,

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "msc_vo/map/map_validation.h"
+#include "msc_vo/mapping/landmark_fusion.h"
 #include "msc_vo/self_calibration/keyframe_intrinsics.h"
 #include "msc_vo/self_calibration/keyframe_rolling_shutter.h"
 #include "msc_vo/structure/keyframe_structure.h"
@@ -27,7 +28,6 @@ Mapper::Mapper(const MapperOptions& options)
     : options_(options),
       atlas_(options.axes, options.noise),
       calibration_(options.readout_time),
-      care_(options.culling, options.fusion),
       optimizer_(options) {}
 
 void Mapper::BeginWith(std::vector<SavedSubMap> submaps, const std::vector<PoseGraphEdge>& loops,
@@ -108,8 +108,9 @@ void Mapper::Create(KeyframeTask* task) {
   MappingSummary& summary = task->summary_;
   Timed(&summary.times.creation, [&] {
     inserter_.Insert(task->packet_, std::exchange(task->frame_, nullptr), &atlas_, &summary);
-    care_.Renew(summary.keyframe, &atlas_.current().map);
     SubMap& submap = atlas_.current();
+    CullLandmarks(options_.culling, summary.keyframe, &probation_, &submap.map);
+    CreateLandmarks(summary.keyframe, &probation_, &submap.map);
     loops_.AddKeyframe(submap.map, summary.keyframe, task->packet_.reference);
     submap.planes.AddKeyframe(submap.map, summary.keyframe, task->packet_.covariance);
   });
@@ -118,7 +119,8 @@ void Mapper::Create(KeyframeTask* task) {
 void Mapper::Fuse(KeyframeTask* task) {
   MappingSummary& summary = task->summary_;
   SubMap& submap = atlas_.current();
-  Timed(&summary.times.fusion, [&] { care_.Fuse(summary.keyframe, &submap.map); });
+  Timed(&summary.times.fusion,
+        [&] { FuseLandmarks(options_.fusion, summary.keyframe, &submap.map); });
   DescribeAxes(submap.axes.estimator(), &summary);
   assert(FirstViolation(map()).empty());
 }
@@ -135,7 +137,7 @@ void Mapper::CloseLoop(KeyframeTask* task) {
     summary.loop = loops_.TryClose(map);
     if (!summary.loop) return;
     submap.planes = submap.planes.Fitted(*map);
-    care_.Fuse(summary.keyframe, map);
+    FuseLandmarks(options_.fusion, summary.keyframe, map);
   });
   summary.num_refused_loops = loops_.num_refused();
 }
@@ -188,7 +190,7 @@ void Mapper::Cull(KeyframeTask* task) {
   MappingSummary& summary = task->summary_;
   summary.num_culled_keyframes = Timed(&summary.times.culling, [&] {
     SubMap& submap = atlas_.current();
-    const int num_culled = care_.CullKeyframes(summary.keyframe, &submap.map);
+    const int num_culled = CullKeyframes(options_.culling, summary.keyframe, &submap.map);
     if (num_culled > 0) submap.planes.Renew(submap.map);
     return num_culled;
   });
@@ -198,7 +200,7 @@ void Mapper::Cull(KeyframeTask* task) {
 void Mapper::BeginMap(const KeyframePacket& packet) {
   inserter_.BeginMap(packet, &atlas_);
   loops_.Clear();
-  care_.BeginMap();
+  probation_ = {};
   optimizer_.BeginMap();
 }
 
@@ -235,7 +237,7 @@ void Mapper::ApplyCalibration(KeyframeId newest) {
   SubMap& submap = atlas_.current();
   optimizer_.OptimizeMap(newest, &submap);
   // A wrong calibration hides the observations that contradict it.
-  care_.FuseAll(&submap.map);
+  FuseAllLandmarks(options_.fusion, &submap.map);
   optimizer_.OptimizeMap(newest, &submap);
 }
 

@@ -11,9 +11,9 @@
 
 #include "msc_vo/map/snapshot.h"
 #include "msc_vo/mapping/atlas.h"
+#include "msc_vo/mapping/culling.h"
 #include "msc_vo/mapping/keyframe_inserter.h"
 #include "msc_vo/mapping/keyframe_packet.h"
-#include "msc_vo/mapping/landmark_care.h"
 #include "msc_vo/mapping/loop_closer.h"
 #include "msc_vo/mapping/map_calibration.h"
 #include "msc_vo/mapping/mapper_options.h"
@@ -119,8 +119,9 @@ class Mapper {
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [options, submaps, calibration, inserter, loops, care, optimizer] = *this;  // all members
-    archive(calibration, inserter, loops, care, optimizer, submaps);
+    auto& [options, submaps, calibration, inserter, loops, probation, optimizer] =
+        *this;  // all members
+    archive(calibration, inserter, loops, probation, optimizer, submaps);
   }
 
  private:
@@ -144,7 +145,7 @@ class Mapper {
   MapCalibration calibration_;
   KeyframeInserter inserter_;
   LoopCloser loops_;
-  LandmarkCare care_;
+  Probation probation_;  // of the current submap
   WindowOptimizer optimizer_;
 };
 

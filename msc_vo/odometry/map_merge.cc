@@ -10,7 +10,8 @@
 
 #include "msc_vo/map/map_renumbering.h"
 #include "msc_vo/mapping/atlas.h"
-#include "msc_vo/mapping/landmark_care.h"
+#include "msc_vo/mapping/culling.h"
+#include "msc_vo/mapping/landmark_fusion.h"
 #include "msc_vo/mapping/loop_closer.h"
 #include "msc_vo/mapping/plane_map.h"
 #include "msc_vo/matching/local_map.h"
@@ -51,9 +52,7 @@ void AddMatches(const Keyframe& keyframe, Matches<L>* matches) {
 class MapMerger {
  public:
   MapMerger(const OdometryOptions& options, MapContents first)
-      : options_(ValidatedOptions(options)),
-        atlas_(options_.mapping.axes, options_.mapping.noise),
-        care_(options_.mapping.culling, options_.mapping.fusion) {
+      : options_(ValidatedOptions(options)), atlas_(options_.mapping.axes, options_.mapping.noise) {
     loops_.AddEdges(first.loops);
     atlas_.BeginWith(std::move(first.submaps));
   }
@@ -169,16 +168,15 @@ class MapMerger {
     PlaneMap* const planes = &atlas_.current().planes;
     for (const KeyframeId id : keyframes) {
       if (map->FindKeyframe(id) == nullptr) continue;
-      care_.Fuse(id, map);
+      FuseLandmarks(options_.mapping.fusion, id, map);
       planes->MergeDuplicates(*map, id);
-      care_.CullKeyframes(id, map);
+      CullKeyframes(options_.mapping.culling, id, map);
     }
     planes->Renew(*map);
   }
 
   OdometryOptions options_;
   Atlas atlas_;
-  LandmarkCare care_;
   MapJoiner joiner_;
   LoopCloser loops_;
   std::vector<MapSession> sessions_;  // of the second map

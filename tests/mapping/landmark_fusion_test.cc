@@ -8,7 +8,7 @@
 #include "tests/support/synthetic_frames.h"
 #include <gmock/gmock.h>
 
-#include "msc_vo/mapping/landmark_creation.h"
+#include "msc_vo/mapping/culling.h"
 
 namespace msc_vo {
 namespace {
