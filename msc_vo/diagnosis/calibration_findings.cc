@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/diagnosis/calibration_findings.h"
-
 #include <cmath>
 #include <string>
 
+#include "msc_vo/datasets/calibration.h"
 #include "msc_vo/datasets/calibration_correction.h"
+#include "msc_vo/diagnosis/motion_calibration.h"
+#include "msc_vo/diagnosis/sequence_findings.h"
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/self_calibration/calibration_bounds.h"
 #include "msc_vo/sensor/depth_camera_correction.h"

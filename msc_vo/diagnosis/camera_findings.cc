@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/diagnosis/camera_findings.h"
-
 #include <array>
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include "msc_vo/camera/undistorted_camera.h"
+#include "msc_vo/datasets/calibration.h"
+#include "msc_vo/diagnosis/sequence_findings.h"
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/text/format_text.h"
 

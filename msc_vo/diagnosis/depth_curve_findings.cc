@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/diagnosis/depth_curve_findings.h"
-
 #include <string>
 
+#include "msc_vo/diagnosis/depth_curve.h"
+#include "msc_vo/diagnosis/sequence_findings.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/diagnosis/ground_truth_findings.h"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
 
+#include "msc_vo/diagnosis/depth_quality.h"
 #include "msc_vo/diagnosis/ground_truth_motion.h"
 #include "msc_vo/diagnosis/ground_truth_reading.h"
+#include "msc_vo/diagnosis/motion_track.h"
+#include "msc_vo/diagnosis/sequence_findings.h"
 #include "msc_vo/diagnosis/time_offset.h"
+#include "msc_vo/geometry/timed_pose.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/diagnosis/motion_findings.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,7 +9,9 @@
 
 #include <Eigen/Core>
 
+#include "msc_vo/diagnosis/motion_track.h"
 #include "msc_vo/diagnosis/quantile.h"
+#include "msc_vo/diagnosis/sequence_findings.h"
 #include "msc_vo/self_calibration/noise_estimator.h"
 #include "msc_vo/text/format_text.h"
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/diagnosis/registration_findings.h"
-
 #include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "msc_vo/diagnosis/edge_alignment.h"
 #include "msc_vo/diagnosis/quantile.h"
+#include "msc_vo/diagnosis/sequence_findings.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {

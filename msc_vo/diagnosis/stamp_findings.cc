@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/diagnosis/stamp_findings.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "msc_vo/datasets/sequence.h"
 #include "msc_vo/diagnosis/quantile.h"
+#include "msc_vo/diagnosis/sequence_findings.h"
 #include "msc_vo/evaluation/association.h"
 #include "msc_vo/evaluation/trajectory_error.h"
 #include "msc_vo/text/format_text.h"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
+#include "msc_vo/diagnosis/depth_curve.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -13,7 +15,7 @@
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
 
-#include "msc_vo/diagnosis/depth_curve_findings.h"
+#include "msc_vo/diagnosis/sequence_findings.h"
 
 namespace msc_vo {
 namespace {

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
-#include "msc_vo/diagnosis/registration_findings.h"
+#include "msc_vo/diagnosis/sequence_findings.h"
 
 namespace msc_vo {
 namespace {

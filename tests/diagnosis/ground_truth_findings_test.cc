@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/diagnosis/ground_truth_findings.h"
-
 #include <functional>
 #include <string>
 #include <vector>
@@ -13,7 +11,10 @@
 #include <gtest/gtest.h>
 
 #include "msc_vo/datasets/sequence_calibration.h"
+#include "msc_vo/diagnosis/depth_quality.h"
 #include "msc_vo/diagnosis/motion_track.h"
+#include "msc_vo/diagnosis/sequence_findings.h"
+#include "msc_vo/geometry/timed_pose.h"
 
 namespace msc_vo {
 namespace {

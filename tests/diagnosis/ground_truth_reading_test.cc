@@ -12,9 +12,12 @@
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
 
-#include "msc_vo/diagnosis/ground_truth_findings.h"
+#include "msc_vo/diagnosis/depth_quality.h"
+#include "msc_vo/diagnosis/motion_track.h"
+#include "msc_vo/diagnosis/sequence_findings.h"
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/geometry/so3.h"
+#include "msc_vo/geometry/timed_pose.h"
 
 namespace msc_vo {
 namespace {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/diagnosis/motion_findings.h"
-
 #include <cmath>
 #include <functional>
 
 #include "tests/support/message_matchers.h"
 #include <gmock/gmock.h>
+
+#include "msc_vo/diagnosis/motion_track.h"
+#include "msc_vo/diagnosis/sequence_findings.h"
 
 namespace msc_vo {
 namespace {
