@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "msc_vo/pose_estimation/pose_search.h"
+#include "msc_vo/pose_estimation/relocalizer.h"
 #include "msc_vo/tracking/pose_support.h"
 
 namespace msc_vo {

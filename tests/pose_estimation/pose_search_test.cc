@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/pose_estimation/pose_search.h"
-
 #include <algorithm>
 #include <memory>
 
@@ -11,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "msc_vo/geometry/angles.h"
+#include "msc_vo/pose_estimation/relocalizer.h"
 
 namespace msc_vo {
 namespace {
