@@ -13,8 +13,9 @@ namespace msc_vo {
 /// was measured (Landmark::has_false_depth): through a pane of glass, or beside an edge with the
 /// depth of a nearer surface. Clears the flag of the others.
 ///
-/// A depth is false if its excess (MeasureDepthExcess) is likelier to have any value up to 0.5 than
-/// to come from the distribution of true depths, whose mean contains the error of the scale of the
+/// The excess of a depth is the ratio by which the distance of a landmark by parallax exceeds the
+/// measured one. A depth is false if its excess is likelier to have any value up to 0.5 than to
+/// come from the distribution of true depths, whose mean contains the error of the scale of the
 /// translation. Cells of the image are tested as a whole, because the parallax of single landmarks
 /// is often too small, and landmarks one by one.
 ///
