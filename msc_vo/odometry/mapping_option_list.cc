@@ -15,11 +15,6 @@ void ListFrameStructure(FrameStructureOptions* structure, OptionLister* list) {
             "perpendicular.");
 }
 
-void ListFusion(FusionOptions* fusion, OptionLister* list) {
-  list->Add("max_neighbours", &fusion->max_neighbours, {0, 1000, "keyframes"},
-            "Number of covisible keyframes that are searched for duplicate landmarks.");
-}
-
 void ListSelection(WindowSelectionOptions* selection, OptionLister* list) {
   list->Add("max_keyframes", &selection->max_keyframes, {1, 100, "keyframes"},
             "Largest number of keyframes that local bundle adjustment optimises.");
@@ -29,15 +24,6 @@ void ListSelection(WindowSelectionOptions* selection, OptionLister* list) {
 
 void ListTerm(TermOptions* term, OptionLister* list) {
   list->Add("enabled", &term->enabled, "Use the factor in local bundle adjustment.");
-}
-
-void ListLandmarkNoise(LandmarkNoiseOptions* noise, OptionLister* list) {
-  list->Add("enabled", &noise->enabled, "Estimate a noise scale for each landmark.");
-}
-
-void ListConsensus(ConsensusOptions* consensus, OptionLister* list) {
-  list->Add("enabled", &consensus->enabled,
-            "Test every observation against the other views of its landmark.");
 }
 
 void ListHuber(TermOptions* term, OptionLister* list) {
@@ -79,8 +65,10 @@ void ListWindow(BundleAdjustmentOptions* window, OptionLister* list) {
   list->Add("second_iterations", &window->second_iterations, {1, 100, "iterations"},
             "Iterations of the second solve, without outliers.");
   ListTerms(ListTerm, window, list);
-  list->Section("landmark_noise", &window->landmark_noise, ListLandmarkNoise);
-  list->Section("consensus", &window->consensus, ListConsensus);
+  list->Add("landmark_noise.enabled", &window->landmark_noise.enabled,
+            "Estimate a noise scale for each landmark.");
+  list->Add("consensus.enabled", &window->consensus.enabled,
+            "Test every observation against the other views of its landmark.");
 }
 
 void ListPairs(StructuralPairOptions* pairs, OptionLister* list) {
@@ -92,16 +80,6 @@ void ListPairs(StructuralPairOptions* pairs, OptionLister* list) {
       .MakeBasic("Disable for comparison.");
   list->Add("max_angle", &pairs->max_angle, {0.01, 44, "degrees"},
             "Range around 0 and 90 degrees in which pairs of lines of the map are sought.");
-}
-
-void ListNoiseEstimator(NoiseEstimatorOptions* noise, OptionLister* list) {
-  list->Add("enabled", &noise->enabled, "Self-calibrate the sigmas of lines and depths.");
-}
-
-void ListAxes(SceneAxesOptions* axes, OptionLister* list) {
-  list->Add("enabled", &axes->enabled,
-            "Estimate Manhattan axes and align lines with them. Mode msc-vo only.")
-      .MakeBasic("Disable for comparison.");
 }
 
 void ListCulling(CullingOptions* culling, OptionLister* list) {
@@ -138,10 +116,14 @@ void ListMapping(MapperOptions* mapping, OptionLister* list) {
   list->Add("min_window_interval", &mapping->min_window_interval, {0, 3600, "seconds"},
             "Smallest time between keyframes with local bundle adjustment.");
   list->Section("structure", &mapping->structure, ListFrameStructure);
-  list->Section("fusion", &mapping->fusion, ListFusion);
+  list->Add("fusion.max_neighbours", &mapping->fusion.max_neighbours, {0, 1000, "keyframes"},
+            "Number of covisible keyframes that are searched for duplicate landmarks.");
   list->Section("selection", &mapping->selection, ListSelection);
-  list->Section("noise", &mapping->noise, ListNoiseEstimator);
-  list->Section("axes", &mapping->axes, ListAxes);
+  list->Add("noise.enabled", &mapping->noise.enabled,
+            "Self-calibrate the sigmas of lines and depths.");
+  list->Add("axes.enabled", &mapping->axes.enabled,
+            "Estimate Manhattan axes and align lines with them. Mode msc-vo only.")
+      .MakeBasic("Disable for comparison.");
   list->Section("pairs", &mapping->pairs, ListPairs);
   list->Section("window", &mapping->window, ListWindow);
   list->Section("culling", &mapping->culling, ListCulling);

@@ -21,16 +21,6 @@ void ListLineMatcher(LineMatcherOptions* matcher, OptionLister* list) {
             "Largest descriptor distance of a match.");
 }
 
-void ListConsensus(CellConsensusOptions* consensus, OptionLister* list) {
-  list->Add(
-      "enabled", &consensus->enabled,
-      "Reject dynamic objects by cell consensus, and leave features in free space out of the map.");
-}
-
-void ListPose(PoseOptions* pose, OptionLister* list) {
-  list->Section("consensus", &pose->consensus, ListConsensus);
-}
-
 void ListKeyframePolicy(KeyframePolicyOptions* policy, OptionLister* list) {
   list->Add("min_tracked_ratio", &policy->min_tracked_ratio, {0, 1},
             "A keyframe is inserted when the ratio of tracked features falls below this fraction "
@@ -41,11 +31,6 @@ void ListKeyframePolicy(KeyframePolicyOptions* policy, OptionLister* list) {
       .MakeBasic("Decrease for more keyframes while the camera is at rest.");
   list->Add("min_interval", &policy->min_interval, {0, 1, "seconds"},
             "Shortest time between keyframes.");
-}
-
-void ListRelocalizer(RelocalizerOptions* relocalizer, OptionLister* list) {
-  list->Add("min_inliers", &relocalizer->min_inliers, {3, 10000, "matches"},
-            "Smallest number of inliers of a pose; a line counts as two points.");
 }
 
 void ListSegments(SegmentOptions* segments, OptionLister* list) {
@@ -99,9 +84,12 @@ void ListTracking(TrackerOptions* tracking, OptionLister* list) {
       "suffice as well.");
   list->Section("point_matcher", &tracking->matchers.point_matcher, ListPointMatcher);
   list->Section("line_matcher", &tracking->matchers.line_matcher, ListLineMatcher);
-  list->Section("pose", &tracking->pose, ListPose);
+  list->Add(
+      "pose.consensus.enabled", &tracking->pose.consensus.enabled,
+      "Reject dynamic objects by cell consensus, and leave features in free space out of the map.");
   list->Section("keyframes", &tracking->keyframes, ListKeyframePolicy);
-  list->Section("relocalizer", &tracking->relocalizer, ListRelocalizer);
+  list->Add("relocalizer.min_inliers", &tracking->relocalizer.min_inliers, {3, 10000, "matches"},
+            "Smallest number of inliers of a pose; a line counts as two points.");
   list->Section("segments", &tracking->segments, ListSegments);
 }
 
