@@ -11,7 +11,6 @@
 #include "msc_vo/diagnosis/ground_truth_reading.h"
 #include "msc_vo/diagnosis/motion_track.h"
 #include "msc_vo/diagnosis/sequence_findings.h"
-#include "msc_vo/diagnosis/time_offset.h"
 #include "msc_vo/geometry/timed_pose.h"
 #include "msc_vo/text/format_text.h"
 

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -73,6 +75,63 @@ HandEye FitWithPrior(const std::vector<MotionComparison>& comparisons,
   }
   result.correlation = product / std::sqrt(std::max(1e-12, image * truth));
   return result;
+}
+
+constexpr double kTimeStep = 0.01;     // seconds, of the offsets that are tried
+constexpr double kTurnInterval = 0.1;  // seconds, of the rotations that are compared
+constexpr size_t kMinTurns = 20;
+constexpr double kMinTurn = 0.004;      // radians, median over kTurnInterval
+constexpr double kMinTurnScale = 1e-3;  // radians, of the rotation errors
+
+// The rotation of the camera between two images.
+struct Turn {
+  double begin;  // seconds
+  double end;
+  Eigen::Vector3d vector;  // of the later camera from the earlier one
+};
+
+std::vector<Turn> TurnsOf(const MotionTrack& track) {
+  std::vector<Turn> turns;
+  const std::vector<MotionImage>& images = track.images;
+  for (size_t i = 0; i < images.size(); ++i) {
+    for (size_t j = i + 1; j < images.size() && images[j].segment == images[i].segment; ++j) {
+      if (images[j].timestamp - images[i].timestamp < kTurnInterval - 1e-3) continue;
+      const Rigid3 motion = track.MotionOf({static_cast<int>(i), static_cast<int>(j)});
+      turns.push_back({images[i].timestamp, images[j].timestamp, LogSO3(motion.rotation())});
+      break;
+    }
+  }
+  return turns;
+}
+
+// Errors of the turns at an offset, radians; -1 where the ground truth has no pose.
+std::vector<double> TurnErrors(const std::vector<Turn>& turns, const std::vector<TimedPose>& truth,
+                               const Eigen::Matrix3d& camera_from_body, double offset) {
+  std::vector<double> errors;
+  for (const Turn& turn : turns) {
+    const auto begin = InterpolatePose(truth, turn.begin + offset);
+    const auto end = InterpolatePose(truth, turn.end + offset);
+    if (!begin || !end) {
+      errors.push_back(-1.0);
+      continue;
+    }
+    const Rigid3 motion = end->Inverse() * *begin;
+    const Eigen::Vector3d vector = LogSO3(Eigen::Quaterniond(motion.rotation()));
+    errors.push_back((turn.vector - camera_from_body * vector).norm());
+  }
+  return errors;
+}
+
+// Mean robust cost of the errors that exist.
+double TurnCost(const std::vector<double>& errors, double scale) {
+  double sum = 0.0;
+  size_t count = 0;
+  for (const double error : errors) {
+    if (error < 0.0) continue;
+    sum += std::log1p(error * error / (scale * scale));
+    ++count;
+  }
+  return count >= kMinTurns ? sum / static_cast<double>(count) : 1e9;
 }
 
 }  // namespace
@@ -206,6 +265,50 @@ HandEye FitSignificantHandEye(const std::vector<MotionComparison>& comparisons,
                               const Eigen::Matrix3d& camera_from_body) {
   const HandEye free = FitWithPrior(comparisons, camera_from_body, kOffsetPrior);
   return free.HasOffset() ? free : FitWithPrior(comparisons, camera_from_body, kNoOffset);
+}
+
+std::optional<TimeOffset> EstimateTimeOffset(const MotionTrack& track,
+                                             const std::vector<TimedPose>& truth,
+                                             const Eigen::Matrix3d& camera_from_body,
+                                             double reach) {
+  const std::vector<Turn> turns = TurnsOf(track);
+  if (turns.size() < kMinTurns) return std::nullopt;
+  std::vector<double> magnitudes;
+  for (const Turn& turn : turns) magnitudes.push_back(turn.vector.norm());
+  const double median_rotation = Median(std::move(magnitudes));
+  if (median_rotation < kMinTurn) return std::nullopt;
+  const int count = static_cast<int>(std::lround(2.0 * reach / kTimeStep)) + 1;
+  const double scale = std::max(kMinTurnScale, 0.2 * median_rotation);
+  std::vector<double> costs;
+  for (int i = 0; i < count; ++i) {
+    costs.push_back(
+        TurnCost(TurnErrors(turns, truth, camera_from_body, i * kTimeStep - reach), scale));
+  }
+  const auto best = std::min_element(costs.begin(), costs.end()) - costs.begin();
+  if (costs[best] > 1e8) return std::nullopt;
+  TimeOffset result;
+  result.seconds = static_cast<double>(best) * kTimeStep - reach;
+  // A parabola over +-3 steps: the cost is smooth, and interpolated poses make it wavy at the
+  // interval of the images.
+  const std::ptrdiff_t wing = 3;
+  const bool is_inside =
+      best >= wing && best + wing < count && costs[best - wing] < 1e8 && costs[best + wing] < 1e8;
+  double curvature = 0.0;
+  if (is_inside) {
+    curvature = costs[best - wing] - 2.0 * costs[best] + costs[best + wing];
+    if (curvature > 0.0) {
+      result.seconds +=
+          0.5 * (costs[best - wing] - costs[best + wing]) / curvature * wing * kTimeStep;
+    }
+  }
+  std::vector<double> errors = TurnErrors(turns, truth, camera_from_body, result.seconds);
+  errors.erase(std::remove(errors.begin(), errors.end(), -1.0), errors.end());
+  result.disagreement = Median(std::move(errors)) / median_rotation;
+  // Second derivative of the sum of the costs; consecutive rotations overlap threefold.
+  const double second =
+      curvature / (wing * kTimeStep * wing * kTimeStep) * static_cast<double>(turns.size()) / 3.0;
+  result.sigma = second > 0.0 ? 1.0 / std::sqrt(second) : reach;
+  return result;
 }
 
 }  // namespace msc_vo

@@ -12,7 +12,6 @@
 
 #include "msc_vo/diagnosis/ground_truth_motion.h"
 #include "msc_vo/diagnosis/motion_track.h"
-#include "msc_vo/diagnosis/time_offset.h"
 #include "msc_vo/geometry/timed_pose.h"
 
 namespace msc_vo {
