@@ -15,7 +15,6 @@
 #include "msc_vo/odometry/calibration_exchange.h"
 #include "msc_vo/odometry/event_log.h"
 #include "msc_vo/odometry/first_error.h"
-#include "msc_vo/odometry/gap_filling.h"
 #include "msc_vo/odometry/image_pipeline.h"
 #include "msc_vo/odometry/input_checks.h"
 #include "msc_vo/odometry/localization.h"

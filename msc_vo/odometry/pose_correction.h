@@ -8,6 +8,7 @@
 #include "msc_vo/map/snapshot.h"
 #include "msc_vo/mapping/atlas.h"
 #include "msc_vo/odometry/frame_result.h"
+#include "msc_vo/odometry/segment_log.h"
 
 namespace msc_vo {
 
@@ -36,5 +37,12 @@ void ReplacePose(const Rigid3& cam_from_world, FrameResult* frame);
 /// Sets the poses of `frames`, one per pose, from those of their keyframes in the maps of `atlas`.
 void SetPoses(const Atlas& atlas, const std::vector<ReferencedPose>& poses,
               std::vector<FrameResult>* frames);
+
+/// Replaces the pose of every frame without an estimate (predicted, lost, dropped, unreadable) by
+/// interpolation between its neighbours with one, at constant velocity: more accurate than the
+/// prediction from the frames before the gap. A pose that pose factors determined counts as an
+/// estimate. Frames before the first estimate or after the last one, between segments whose worlds
+/// are not joined, and statuses, do not change. Frames are in order of time.
+void FillGaps(const std::vector<Segment>& segments, std::vector<FrameResult>* frames);
 
 }  // namespace msc_vo

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/odometry/gap_filling.h"
-
 #include <gmock/gmock.h>
 
 #include "msc_vo/geometry/so3.h"
+#include "msc_vo/odometry/pose_correction.h"
 
 namespace msc_vo {
 namespace {
