@@ -77,18 +77,6 @@ std::vector<bool> Classify(const ManhattanAxesData& data,
   return inliers;
 }
 
-double Cost(const ManhattanAxesData& data, const std::vector<bool>& inliers,
-            const ceres::LossFunction& loss, const Eigen::Quaterniond& world_from_manhattan) {
-  double cost = 0.0;
-  for (size_t i = 0; i < inliers.size(); ++i) {
-    if (!inliers[i]) continue;
-    double rho[3];
-    loss.Evaluate(ChiSquare(data.observations[i], world_from_manhattan), rho);
-    cost += 0.5 * rho[0];
-  }
-  return cost;
-}
-
 // One round of optimisation over the inliers. The observed directions fix the gauge.
 bool Minimize(const ManhattanAxesData& data, const std::vector<bool>& inliers,
               Eigen::Quaterniond* world_from_manhattan) {
@@ -131,8 +119,7 @@ Eigen::Matrix3d Information(const ManhattanAxesData& data, const std::vector<boo
   return information;
 }
 
-// Fills in inliers, final cost and covariance. The result is usable if the information has full
-// rank.
+// Fills in inliers and covariance. The result is usable if the information has full rank.
 void Summarize(const ManhattanAxesData& data, const std::vector<bool>& inliers,
                const Eigen::Quaterniond& world_from_manhattan, ManhattanAxesSummary* summary) {
   summary->num_inliers = static_cast<int>(std::count(inliers.begin(), inliers.end(), true));
@@ -148,8 +135,6 @@ void Summarize(const ManhattanAxesData& data, const std::vector<bool>& inliers,
   }
   const double inflation = std::max(1.0, chi_square / (2.0 * summary->num_inliers - 3.0));
   summary->covariance = inflation * information.inverse();
-  summary->final_cost =
-      Cost(data, inliers, ceres::HuberLoss(kHuberThreshold[2]), world_from_manhattan);
   summary->usable = true;
 }
 
@@ -160,8 +145,6 @@ ManhattanAxesSummary RefineManhattanAxes(ManhattanAxesData* data) {
   Eigen::Quaterniond world_from_manhattan = data->world_from_manhattan;
   std::vector<bool> inliers(data->observations.size(), true);
   ManhattanAxesSummary summary;
-  summary.initial_cost =
-      Cost(*data, inliers, ceres::HuberLoss(kHuberThreshold[2]), world_from_manhattan);
   bool solved = true;
   for (int round = 0; round < kMaxRounds && solved; ++round) {
     solved = Minimize(*data, inliers, &world_from_manhattan);

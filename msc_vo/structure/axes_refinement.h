@@ -30,9 +30,6 @@ struct ManhattanAxesSummary {
   /// it undetermined. The axes are then unchanged.
   bool usable = false;
   int num_inliers = 0;
-  /// Half the sum of robust squared norms over all observations, at the start.
-  double initial_cost = 0.0;
-  double final_cost = 0.0;  ///< the same over the inliers, at the end
   /// Covariance of the rotation vector w of Exp(w) q in the world, radians^2: the inverse of J^T J,
   /// scaled by the mean squared residual of the inliers where that exceeds one. Zero if not usable.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();

@@ -236,13 +236,10 @@ FrameStructureSummary RefineFrameStructure(const FrameStructureOptions& options,
     blocks.emplace_back((*lines)[i].depth.start, (*lines)[i].depth.end, 0.0, 0.0);
   }
   StructureEquations equations;
-  if (refined.empty() || !factors.Linearize(blocks, &equations)) return summary;
-  summary.initial_cost = equations.cost;
-  if (!MinimizeStructure(factors, kMaxIterations, &blocks, &equations, &summary.num_iterations)) {
+  if (refined.empty() || !MinimizeStructure(factors, kMaxIterations, &blocks, &equations)) {
     return summary;
   }
   summary.usable = true;
-  summary.final_cost = equations.cost;
   const auto covariances = BoundCovariances(factors, equations);
   for (size_t k = 0; k < refined.size(); ++k) {
     // A line that would pass through infinity keeps its fit.

@@ -37,9 +37,6 @@ struct FrameStructureSummary {
   bool usable = false;  ///< false: no pairs, or the solver failed; the lines are then unchanged
   int num_parallel = 0;
   int num_perpendicular = 0;
-  int num_iterations = 0;
-  double initial_cost = 0.0;  ///< 0.5 * sum of robustified squares of pairs and priors
-  double final_cost = 0.0;
 };
 
 /// Refines the depths of a frame's lines by their parallel and perpendicular relations (paper: 3D

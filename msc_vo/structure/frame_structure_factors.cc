@@ -183,13 +183,12 @@ bool FrameStructureFactors::Linearize(const Blocks& blocks, StructureEquations* 
 }
 
 bool MinimizeStructure(const FrameStructureFactors& factors, int max_iterations, Blocks* blocks,
-                       StructureEquations* equations, int* num_iterations) {
+                       StructureEquations* equations) {
   // A hundredth of the estimate's own standard deviations, of all lines together.
   constexpr double kMinSquaredStep = 1e-4;
   StructureProblem problem(factors, *blocks, equations);
   const LevenbergMarquardtSummary summary =
       MinimizeByLevenbergMarquardt(max_iterations, kMinSquaredStep, &problem);
-  *num_iterations = summary.num_iterations;
   if (summary.termination == LevenbergMarquardtTermination::kFailed) return false;
   *blocks = problem.blocks();
   return true;

@@ -59,10 +59,9 @@ struct FrameStructureFactors {
 
 /// Minimises the cost by Levenberg-Marquardt from *blocks. Returns false, and leaves *blocks
 /// unchanged, if a factor is undefined there or a step is not finite. *equations: normal equations
-/// at the solution. *num_iterations: steps that were evaluated.
+/// at the solution.
 bool MinimizeStructure(const FrameStructureFactors& factors, int max_iterations,
-                       std::vector<InverseDepthLineBlock>* blocks, StructureEquations* equations,
-                       int* num_iterations);
+                       std::vector<InverseDepthLineBlock>* blocks, StructureEquations* equations);
 
 /// Upper bound of the covariance of every block, from its own prior, its pairs and the priors of
 /// its partners. Further pairs could only reduce it. This requires a few small inverses instead of

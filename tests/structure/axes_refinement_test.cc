@@ -59,8 +59,6 @@ TEST_F(ManhattanAxesTest, RecoversTheRotationFromExactDirections) {
   ASSERT_TRUE(summary.usable);
   EXPECT_LT(Error(data, truth_).norm(), 1e-6);
   EXPECT_EQ(summary.num_inliers, 30);
-  EXPECT_GT(summary.initial_cost, 10.0);
-  EXPECT_LT(summary.final_cost, 1e-6);
   EXPECT_NEAR(data.world_from_manhattan.norm(), 1.0, 1e-12);
 }
 

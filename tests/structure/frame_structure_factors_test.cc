@@ -95,8 +95,7 @@ TEST_F(FrameStructureFactorsTest, MinimumMatchesCeres) {
   AddTo(&problem, &expected);
   SolveToEnd(&problem);
   StructureEquations equations;
-  int num_iterations = 0;
-  ASSERT_TRUE(MinimizeStructure(factors_, 200, &actual, &equations, &num_iterations));
+  ASSERT_TRUE(MinimizeStructure(factors_, 200, &actual, &equations));
   double cost = 0.0;
   ASSERT_TRUE(problem.Evaluate({}, &cost, nullptr, nullptr, nullptr));
   EXPECT_NEAR(equations.cost, cost, 1e-4);

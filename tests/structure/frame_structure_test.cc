@@ -205,8 +205,6 @@ TEST_P(FrameStructureTest, ChangesDepthsOfPairedLinesOnly) {
   }
   EXPECT_LT(changed, 60);
   EXPECT_GT(changed, 40);
-  EXPECT_LT(summary.final_cost, summary.initial_cost);
-  EXPECT_GT(summary.num_iterations, 0);
 }
 
 TEST_P(FrameStructureTest, LimitsPartnersIndependentOfOrder) {
