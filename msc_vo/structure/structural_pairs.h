@@ -3,11 +3,38 @@
 
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "msc_vo/bundle_adjustment/window_data.h"
 #include "msc_vo/structure/deviation_estimator.h"
-#include "msc_vo/structure/pair_candidates.h"
 
 namespace msc_vo {
+
+struct StructuralPairOptions {
+  bool parallel = true;
+  bool perpendicular = true;
+  /// Range around 0 and 90 degrees in which pairs are sought, degrees: wide enough to show how many
+  /// pairs lie there by chance.
+  double max_angle = 3.0;
+};
+
+/// Pairs of lines of a window whose angle is near to 0 or 90 degrees.
+struct PairCandidates {
+  template <typename Deviation>
+  struct Pair {
+    double sigma = 0.0;  ///< radians, of the angle between the two
+    int i = 0, j = 0;    ///< indices of both lines in `lines`
+    Deviation deviation;
+    double probability = 0.0;  ///< of a relation
+  };
+  using Parallel = Pair<DirectionDeviation>;
+  using Perpendicular = Pair<AngleDeviation>;
+
+  std::vector<int64_t> lines;  ///< ids of the lines whose directions are certain enough
+  std::vector<Parallel> parallel;
+  std::vector<Perpendicular> perpendicular;
+};
 
 /// The parallel and perpendicular pairs of a window (paper: L_par^z, L_perp^z of the lines z):
 /// lines that at least one keyframe of the window observes together and whose angle is near to 0 or
@@ -27,8 +54,9 @@ class StructuralPairs {
   /// The options must be valid (OdometryOptions::IsValid).
   explicit StructuralPairs(const StructuralPairOptions& options);
 
-  /// The candidates of a window whose lines have been aligned with axes; none if pairs are
-  /// disabled.
+  /// The candidates of a window whose lines have been aligned with axes: the most certain pairs of
+  /// each line among those that a keyframe of the window observes together, without pairs of two
+  /// lines that are aligned with axes. None if pairs are disabled.
   PairCandidates Find(const WindowData& window) const;
   /// Updates the deviation of pairs with the parallel candidates of a window.
   void Learn(const PairCandidates& candidates);

@@ -150,7 +150,7 @@ TEST_F(StructuralPairsTest, ExcludesPairsOfAlignedLines) {
   window_.axis_alignments.erase(window_.axis_alignments.begin());
   const int64_t free_line = window_.lines.front().id;
   // Candidates, because few of them do not show that they are related.
-  const PairCandidates candidates = FindPairCandidates(options_, window_);
+  const PairCandidates candidates = StructuralPairs(options_).Find(window_);
   EXPECT_FALSE(candidates.perpendicular.empty());
   for (const auto& pair : candidates.perpendicular) {
     EXPECT_TRUE(candidates.lines[pair.i] == free_line || candidates.lines[pair.j] == free_line);
