@@ -14,7 +14,6 @@
 #include "msc_vo/tracking/frame_pose.h"
 #include "msc_vo/tracking/place_verification.h"
 #include "msc_vo/tracking/pose_support.h"
-#include "msc_vo/tracking/search_budget.h"
 
 namespace msc_vo {
 
@@ -26,6 +25,11 @@ constexpr int kKeyframesToTry = 1;
 // Shortest time between two frames that are found in another part of their own map, seconds, so
 // that their views differ. A pose in a saved map is waited for, a loop is not.
 constexpr double kLoopInterval = 0.2;
+
+constexpr double kIntervalsPerSecond = 30.0;
+constexpr double kMaxSeconds = 0.2;  // a gap in the recording leaves no time for a longer search
+// The number of intervals is rounded from here on, so that jitter of the stamps decides nothing.
+constexpr double kMinRounded = 0.75;
 
 size_t NumKeyframes(const InactiveMaps& maps) {
   size_t count = 0;
@@ -101,6 +105,14 @@ bool IsPossible(const TrackedFrame& tracked, const Map& map, const PathCovarianc
 }
 
 }  // namespace
+
+int KeyframesToTry(int keyframes_per_interval, double seconds, size_t num_keyframes) {
+  double intervals = kIntervalsPerSecond * std::min(seconds, kMaxSeconds);
+  if (intervals >= kMinRounded) intervals = std::round(intervals);
+  const int num_in_time = static_cast<int>(std::lround(keyframes_per_interval * intervals));
+  const int num_different = std::max(keyframes_per_interval, static_cast<int>(num_keyframes));
+  return std::clamp(num_in_time, 1, num_different);
+}
 
 std::vector<KeyframeId> TryOrder::Select(const std::vector<KeyframeId>& ranked, int num) {
   std::vector<KeyframeId> selected;

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -14,6 +15,12 @@
 #include "msc_vo/tracking/tracker_options.h"
 
 namespace msc_vo {
+
+/// Returns how many of the `num_keyframes` of a map are tried in a frame that follows the previous
+/// one after `seconds`, so that their number per second, and with it the cost, does not depend on
+/// the frame rate: `keyframes_per_interval` in 1/30 s, at least one, and after a gap no more than
+/// in 0.2 s. Beyond `keyframes_per_interval`, none is tried twice.
+int KeyframesToTry(int keyframes_per_interval, double seconds, size_t num_keyframes);
 
 /// Which of the keyframes that look like a frame are tried next. The best one is tried first, but
 /// another place may look alike: the others are tried cyclically.

@@ -16,7 +16,6 @@
 #include "msc_vo/tracking/plane_pose.h"
 #include "msc_vo/tracking/pose_factor_callback.h"
 #include "msc_vo/tracking/pose_plausibility.h"
-#include "msc_vo/tracking/search_budget.h"
 #include "msc_vo/tracking/segment_start.h"
 #include "msc_vo/tracking/tracked_frame.h"
 #include "msc_vo/tracking/tracker_options.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/tracking/search_budget.h"
-
 #include <gtest/gtest.h>
+
+#include "msc_vo/tracking/place_search.h"
 
 namespace msc_vo {
 namespace {
