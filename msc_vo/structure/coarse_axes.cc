@@ -9,7 +9,6 @@
 #include "msc_vo/structure/internal/axes_evidence.h"
 #include "msc_vo/structure/internal/axes_gates.h"
 #include "msc_vo/structure/internal/axes_hypotheses.h"
-#include "msc_vo/structure/internal/axes_score.h"
 
 namespace msc_vo {
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/structure/internal/axes_score.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "msc_vo/geometry/angles.h"
+#include "msc_vo/structure/internal/axes_evidence.h"
 
 namespace msc_vo {
 namespace {

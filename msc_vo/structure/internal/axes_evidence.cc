@@ -4,6 +4,7 @@
 #include "msc_vo/structure/internal/axes_evidence.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace msc_vo {
 
@@ -41,6 +42,30 @@ DirectionEvidence GatherEvidence(const std::vector<AxisEvidence>& lines,
     evidence.all.push_back({direction, normal_total / total / normal_directions.size()});
   }
   return evidence;
+}
+
+ScoredAxes ScoreAxes(const DirectionEvidence& evidence, const Eigen::Matrix3d& axes) {
+  ScoredAxes scored;
+  scored.axes = axes;
+  const double min_cosine = std::cos(kAxisCone);
+  constexpr double kScale = -0.5 / (kLastBandwidth * kLastBandwidth);
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (size_t i = 0; i < evidence.all.size(); ++i) {
+    const WeightedDirection& item = evidence.all[i];
+    int axis = 0;
+    const Vector3d cosines = axes.transpose() * item.direction;
+    if (cosines.cwiseAbs().maxCoeff(&axis) < min_cosine) continue;
+    (evidence.IsLine(i) ? scored.num_lines : scored.num_normals)[axis] += 1.0;
+    scored.explained_ratio += item.weight;
+    const Vector3d in_plane = item.direction / cosines[axis] - axes.col(axis);
+    scored.density += item.weight * std::exp(kScale * in_plane.squaredNorm());
+    sum.col(axis) += std::copysign(item.weight, cosines[axis]) * item.direction;
+  }
+  for (int i = 0; i < 3; ++i) {
+    const Vector3d mean = sum.col(i);
+    if (mean.norm() > 0.0) scored.misfit[i] = UndirectedAngle(mean, Vector3d(axes.col(i)));
+  }
+  return scored;
 }
 
 }  // namespace msc_vo

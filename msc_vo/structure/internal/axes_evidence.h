@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/structure/axis_evidence.h"
 #include "msc_vo/structure/direction_modes.h"
@@ -40,5 +42,19 @@ constexpr double kFullWeightNormals = 200.0;
 /// result does not depend on the order of the input.
 DirectionEvidence GatherEvidence(const std::vector<AxisEvidence>& lines,
                                  const std::vector<AxisEvidence>& normals);
+
+/// Support of a hypothesis of Manhattan axes in the evidence of a view.
+struct ScoredAxes {
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d num_lines = Eigen::Vector3d::Zero();    ///< in the cone of each axis
+  Eigen::Vector3d num_normals = Eigen::Vector3d::Zero();  ///< in the cone of each axis
+  /// Angle between the mean direction in the cone of each axis and the axis, radians.
+  Eigen::Vector3d misfit = Eigen::Vector3d::Zero();
+  double explained_ratio = 0.0;  ///< total weight of the evidence in the three cones
+  double density = 0.0;          ///< weights under the last kernel: the objective of mean shift
+};
+
+/// Counts the evidence in the cones around `axes`, the columns of a rotation in its frame.
+ScoredAxes ScoreAxes(const DirectionEvidence& evidence, const Eigen::Matrix3d& axes);
 
 }  // namespace msc_vo

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "msc_vo/geometry/angles.h"
-#include "msc_vo/structure/internal/axes_score.h"
+#include "msc_vo/structure/internal/axes_evidence.h"
 
 namespace msc_vo {
 
