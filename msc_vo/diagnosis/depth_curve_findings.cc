@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
+#include <cstddef>
 #include <string>
 
 #include "msc_vo/diagnosis/depth_curve.h"
@@ -11,46 +12,27 @@ namespace msc_vo {
 
 namespace {
 
-std::string NameOf(const DepthCurveTest::Votes& votes, double depth_scale) {
-  switch (votes.curve) {
-    case DepthCurve::kDepth:
-      return "depth";
-    case DepthCurve::kInverse:
-      return "inverse depth (disparity)";
-    case DepthCurve::kInverted:
-      return FormatText("inverted depth (about %.0f minus depth, in raw units)",
-                        votes.origin * depth_scale);
-    case DepthCurve::kCompressed:
-      return "compressed depth (its square root or logarithm)";
-    case DepthCurve::kStretched:
-      return "stretched depth (its square)";
-    case DepthCurve::kRayLength:
-      return "the distance from the camera (the length of the viewing ray)";
-  }
-  return "";
-}
+struct CurveText {
+  const char* name;  // %.0f: the value at distance 0, raw units
+  const char* fix;   // follows kWriteAgain
+};
 
-std::string FixOf(DepthCurve curve) {
-  const std::string write = "write the depth images again, with depth along the optical axis: ";
-  switch (curve) {
-    case DepthCurve::kDepth:
-      return "";
-    case DepthCurve::kInverse:
-      return write +
-             "focal length (px) times baseline (m) divided by disparity (px), times depth_scale; "
-             "for a depth buffer, invert the projection of the renderer";
-    case DepthCurve::kInverted:
-      return write + "the value at distance 0 minus each value, 0 where nothing was measured";
-    case DepthCurve::kCompressed:
-    case DepthCurve::kStretched:
-      return write + "the inverse function of what they were encoded with, times depth_scale";
-    case DepthCurve::kRayLength:
-      return write +
-             "each value divided by sqrt(1 + x^2 + y^2), with x = (u - cx) / fx and y = (v - cy) / "
-             "fy";
-  }
-  return "";
-}
+constexpr char kWriteAgain[] = "write the depth images again, with depth along the optical axis: ";
+constexpr char kDecode[] = "the inverse function of what they were encoded with, times depth_scale";
+
+// In the order of DepthCurve.
+constexpr CurveText kCurveTexts[] = {
+    {"depth", ""},
+    {"inverse depth (disparity)",
+     "focal length (px) times baseline (m) divided by disparity (px), times depth_scale; "
+     "for a depth buffer, invert the projection of the renderer"},
+    {"inverted depth (about %.0f minus depth, in raw units)",
+     "the value at distance 0 minus each value, 0 where nothing was measured"},
+    {"compressed depth (its square root or logarithm)", kDecode},
+    {"stretched depth (its square)", kDecode},
+    {"the distance from the camera (the length of the viewing ray)",
+     "each value divided by sqrt(1 + x^2 + y^2), with x = (u - cx) / fx and y = (v - cy) / fy"},
+};
 
 }  // namespace
 
@@ -59,12 +41,13 @@ void AddDepthCurveFindings(const DepthCurveTest& test, Findings* findings) {
   const DepthCurveTest::Votes best = test.Best();
   if (best.ProveCurve()) {
     const bool may_be_lens = best.may_be_lens;
+    const CurveText& curve = kCurveTexts[static_cast<size_t>(best.curve)];
+    const std::string name = FormatText(curve.name, best.origin * test.depth_scale());
     const std::string text = FormatText(
-        "the depth images hold %s, %s: as such, %d surfaces are plane, as depth %d",
-        NameOf(best, test.depth_scale()).c_str(),
+        "the depth images hold %s, %s: as such, %d surfaces are plane, as depth %d", name.c_str(),
         may_be_lens ? "or the lens is not described" : "not depth", best.num_curve, best.num_depth);
     const Measurement ratio{static_cast<double>(best.num_depth) / best.num_curve, "ratio"};
-    const std::string fix = FixOf(best.curve);
+    const std::string fix = std::string(kWriteAgain) + curve.fix;
     findings->push_back(
         may_be_lens ? Warning(check, text, "give the distortion of the lens, or " + fix, ratio)
                     : Error(check, text, fix, ratio));
