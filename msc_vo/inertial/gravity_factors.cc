@@ -12,6 +12,7 @@
 #include <ceres/loss_function.h>
 #include <ceres/sphere_manifold.h>
 
+#include "msc_vo/factors/chi_square.h"
 #include "msc_vo/factors/direction_prior.h"
 #include "msc_vo/factors/gravity_direction.h"
 #include "msc_vo/inertial/vertical_measurement.h"
@@ -20,6 +21,9 @@ namespace msc_vo {
 
 namespace {
 
+// Least time between the keyframes from which the acceleration of the camera is computed, seconds.
+// The error of the acceleration decreases with its square.
+constexpr double kMinInterval = 1.0;
 // Measurements without scatter that are added to those of a window. A plain choice: they limit what
 // the scatter of two or three measurements, a matter of chance, adds to sigma; in return the
 // scatter counts for 0.45 of its value with 2 measurements, and for 0.83 with 10.
@@ -48,35 +52,23 @@ double SigmaOf(const std::vector<VerticalMeasurement>& measurements, double min_
 
 }  // namespace
 
-bool GravityOptions::IsValid(std::string* error) const {
-  if (!(min_interval > 0.0)) {
-    *error = "gravity: min_interval must be positive";
-  } else if (!(min_sigma > 0.0)) {
-    *error = "gravity: min_sigma must be positive";
-  } else if (!(huber > 0.0)) {
-    *error = "gravity: huber must be positive";
-  } else {
-    return true;
-  }
-  return false;
-}
-
 GravityFactors::GravityFactors(std::vector<TimedAcceleration> readings,
                                const GravityOptions& options)
     : readings_(std::move(readings)), options_(options) {
-  std::string error;
-  if (!options.IsValid(&error)) throw std::invalid_argument(error);
+  if (!(options.min_sigma > 0.0)) {
+    throw std::invalid_argument("gravity: min_sigma must be positive");
+  }
 }
 
 WindowFactors GravityFactors::operator()(const WindowContext& window) {
   const std::vector<VerticalMeasurement> measurements =
-      MeasureVertical(readings_, PosesOf(window), options_.min_interval);
+      MeasureVertical(readings_, PosesOf(window), kMinInterval);
   MeasuredVertical& mean = verticals_[window.world];
   if (measurements.empty() && mean.information == 0.0) return {};
   const double sigma =
       measurements.empty() ? options_.min_sigma : SigmaOf(measurements, options_.min_sigma);
   const BlockId vertical = BlockId::Extra(options_.block + window.world);
-  const auto loss = std::make_shared<ceres::HuberLoss>(options_.huber);
+  const auto loss = std::make_shared<ceres::HuberLoss>(kHuberThreshold[2]);
   WindowFactors result;
   for (const VerticalMeasurement& m : measurements) {
     const WindowContext::Keyframe& keyframe = window.keyframes[m.pose];

@@ -5,30 +5,22 @@
 
 #include <cstdint>
 #include <map>
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "msc_vo/factors/chi_square.h"
 #include "msc_vo/geometry/timed_acceleration.h"
 #include "msc_vo/mapping/window_factors.h"
 
 namespace msc_vo {
 
 struct GravityOptions {
-  /// Least time between the keyframes from which the acceleration of the camera is computed,
-  /// seconds. The error of the acceleration decreases with its square.
-  double min_interval = 1.0;
   /// Standard deviation of each component of a measured vertical, radians, apart from the scatter
   /// of the lengths: the rotation between keyframes is interpolated. A sensor with a bias needs
   /// more. Chosen by measurement, see docs/lab/gravity.md.
   double min_sigma = 0.0005;
-  double huber = kHuberThreshold[2];  ///< threshold of the loss, in standard deviations
   /// Id of the extra block with the vertical in world 0. That in world w has the id block + w.
   int64_t block = 0;
-
-  bool IsValid(std::string* error) const;
 };
 
 /// Ties roll and pitch of the keyframes of every window to an accelerometer. The vertical, a unit
@@ -42,7 +34,7 @@ struct GravityOptions {
 class GravityFactors {
  public:
   /// `readings`: in the axes of the camera, in order of time.
-  /// Throws std::invalid_argument on invalid options.
+  /// Throws std::invalid_argument if min_sigma is not positive.
   GravityFactors(std::vector<TimedAcceleration> readings, const GravityOptions& options);
 
   /// Returns the factors of a window; none before the vertical has been measured.
