@@ -49,6 +49,16 @@ PoseCovariance ReadCovariance(RowReader* row) {
   return covariance;
 }
 
+void ReadGeometry(RowReader* row, PointLandmark* point) {
+  for (double& x : point->position) x = row->Metres();
+}
+
+void ReadGeometry(RowReader* row, LineLandmark* line) {
+  for (double& x : line->segment.start) x = row->Metres();
+  for (double& x : line->segment.end) x = row->Metres();
+  line->depth_offset = row->Metres();
+}
+
 class TableReader {
  public:
   TableReader(const SqliteDatabase& database, CalibrationRows* calibrations)
@@ -81,25 +91,223 @@ class TableReader {
                              "); restore a copy, or record the map again");
   }
 
-  void ReadIds();
-  void ReadSessions();
-  void ReadSubMaps();
-  void ReadKeyframes();
-  void ReadKeyframe(RowReader* row, RowReader* features);
-  std::shared_ptr<const Frame> ReadFrame(KeyframeId id, RowReader* row);
-  template <typename L>
-  void ReadFeatures(KeyframeId id, RowReader* row, Frame* frame);
-  void ReadFalseDepths();
-  template <typename L>
-  void ReadLandmarks();
-  template <typename L>
-  void ReadLandmark(RowReader* row);
-  void ReadLoops();
-
   SavedSubMap* FindSubMap(int64_t id) {
     const auto place = std::find_if(contents_.submaps.begin(), contents_.submaps.end(),
                                     [id](const SavedSubMap& submap) { return submap.id == id; });
     return place != contents_.submaps.end() ? &*place : nullptr;
+  }
+
+  void ReadIds() {
+    SqliteStatement rows = database_.Prepare("SELECT * FROM map");
+    if (!rows.Step()) Fail("its table map is empty");
+    RowReader row(rows, database_.path(), "map");
+    row.Integer();
+    next_keyframe_ = row.Integer();
+    next_landmark_ = row.Integer();
+    row.Text();
+    row.Finish();
+    if (next_keyframe_ < 0 || next_keyframe_ > kMaxKeyframes || next_landmark_ < 0 ||
+        next_landmark_ > kMaxLandmarks) {
+      row.Fail("the ids are not possible");
+    }
+  }
+
+  void ReadSessions() {
+    SqliteStatement rows = database_.Prepare("SELECT * FROM session ORDER BY id");
+    KeyframeId last = 0;
+    while (rows.Step()) {
+      RowReader row(rows, database_.path(), "session");
+      row.Integer();
+      MapSession session;
+      session.first_keyframe = row.Integer();
+      session.name = row.Text();
+      row.Finish();
+      if (session.first_keyframe < last || session.first_keyframe > next_keyframe_) {
+        row.Fail("it is out of order");
+      }
+      last = session.first_keyframe;
+      contents_.sessions.push_back(session);
+    }
+  }
+
+  void ReadSubMaps() {
+    SqliteStatement rows = database_.Prepare("SELECT * FROM submap ORDER BY id");
+    while (rows.Step()) {
+      RowReader row(rows, database_.path(), "submap");
+      SavedSubMap submap;
+      const int64_t id = row.Integer();
+      if (id < 0 || id > kMaxKeyframes) row.Fail("its id is not possible");
+      submap.id = static_cast<int>(id);
+      if (!row.IsNull()) {
+        AxesEstimate axes;
+        for (double& value : axes.world_from_axes.coeffs()) value = row.Real();
+        axes.sigma = row.Real();
+        axes.deviation = row.Real();
+        const bool is_valid = std::abs(axes.world_from_axes.norm() - 1.0) < 1e-9 &&
+                              axes.sigma > 0.0 && axes.deviation >= 0.0;
+        if (!is_valid) row.Fail("its axes are not valid");
+        submap.axes = axes;
+      } else {
+        for (int i = 0; i < 5; ++i) {
+          if (!row.IsNull()) row.Fail("its axes are not complete");
+        }
+      }
+      submap.noise_scale = {row.Real(), row.Real(), row.Real()};
+      const NoiseScale& noise = submap.noise_scale;
+      if (version_ >= kFirstVersionWithPlanes) submap.planes.noise = row.Real();
+      if (!(noise.point_depth > 0.0 && noise.line_pixel > 0.0 && noise.line_depth > 0.0 &&
+            submap.planes.noise > 0.0)) {
+        row.Fail("its noise is not positive");
+      }
+      row.Finish();
+      contents_.submaps.push_back(std::move(submap));
+    }
+  }
+
+  void ReadKeyframes() {
+    SqliteStatement rows = database_.Prepare("SELECT * FROM keyframe ORDER BY id");
+    SqliteStatement features = database_.Prepare("SELECT * FROM features ORDER BY keyframe");
+    while (rows.Step()) {
+      RowReader row(rows, database_.path(), "keyframe");
+      if (!features.Step()) row.Fail("it has no features");
+      RowReader features_row(features, database_.path(), "features");
+      ReadKeyframe(&row, &features_row);
+    }
+    if (features.Step() || !planes_.empty()) Fail("it has features without a keyframe");
+    ForEachLandmarkKind([&](auto kind) {
+      auto& observations = observations_.Of<typename decltype(kind)::Landmark>();
+      std::sort(observations.begin(), observations.end());
+    });
+  }
+
+  void ReadKeyframe(RowReader* row, RowReader* features) {
+    const KeyframeId id = row->Integer();
+    if (id < 0 || id >= next_keyframe_) row->Fail("its id is not possible");
+    SavedSubMap* const submap = FindSubMap(row->Integer());
+    if (submap == nullptr) row->Fail("its submap does not exist");
+    const Rigid3 cam_from_world = ReadPose(row);
+    row->Finish();
+    if (features->Integer() != id) row->Fail("it has no features");
+    try {
+      submap->map.AddKeyframe(ReadFrame(id, features), cam_from_world, id);
+      submap->map.SetStepCovariance(id, ReadCovariance(features));
+    } catch (const BlobError& error) {
+      features->Fail(error.what());
+    }
+    features->Finish();
+  }
+
+  std::shared_ptr<const Frame> ReadFrame(KeyframeId id, RowReader* row) {
+    const auto frame = std::make_shared<Frame>();
+    frame->id = row->Integer();
+    frame->timestamp = row->Real();
+    const FrameCalibration* const calibration = calibrations_->Find(row->Integer());
+    if (calibration == nullptr) row->Fail("its calibration does not exist");
+    frame->camera = calibration->camera;
+    frame->intrinsics = calibration->intrinsics;
+    ReadFeatures<PointLandmark>(id, row, &*frame);
+    ReadFeatures<LineLandmark>(id, row, &*frame);
+    frame->depth_ranges = DecodeDepthRanges(row->Blob());
+    frame->grid = FeatureGrid(frame->camera, frame->points);
+    const auto planes = planes_.find(id);
+    if (planes != planes_.end()) {
+      frame->planes = std::move(planes->second);
+      planes_.erase(planes);
+    }
+    return frame;
+  }
+
+  template <typename L>
+  void ReadFeatures(KeyframeId id, RowReader* row, Frame* frame) {
+    auto& features = OfKind<L>(*frame);
+    DecodeFeatures(row->Blob(), &features);
+    std::vector<LandmarkId> landmarks;
+    DecodeLandmarks(row->Blob(), &landmarks);
+    if (landmarks.size() != features.size()) row->Fail("its features and landmarks do not fit");
+    for (size_t i = 0; i < landmarks.size(); ++i) {
+      observations_.Of<L>().push_back({landmarks[i], id, static_cast<int>(i)});
+    }
+  }
+
+  template <typename L>
+  void ReadLandmarks() {
+    SqliteStatement rows =
+        database_.Prepare(std::string("SELECT * FROM ") + L::kName + " ORDER BY id");
+    while (rows.Step()) {
+      RowReader row(rows, database_.path(), L::kName);
+      ReadLandmark<L>(&row);
+    }
+    if (num_used_.Of<L>() != observations_.Of<L>().size()) {
+      Fail("a feature observes a " + std::string(L::kName) + " that does not exist");
+    }
+  }
+
+  template <typename L>
+  void ReadLandmark(RowReader* row) {
+    L landmark;
+    landmark.id = row->Integer();
+    if (landmark.id < 0 || landmark.id >= next_landmark_) row->Fail("its id is not possible");
+    SavedSubMap* const submap = FindSubMap(row->Integer());
+    if (submap == nullptr) row->Fail("its submap does not exist");
+    landmark.first_keyframe = row->Integer();
+    ReadGeometry(row, &landmark);
+    const int64_t num_visible = row->Integer();
+    const int64_t num_found = row->Integer();
+    constexpr int64_t kMaxCount = int64_t{1} << 30;
+    if (num_found < 0 || num_visible < 0 || num_found > kMaxCount || num_visible > kMaxCount) {
+      row->Fail("its counts are not possible");
+    }
+    landmark.num_visible = static_cast<int>(num_visible);
+    landmark.num_found = static_cast<int>(num_found);
+    landmark.noise = row->Real();
+    landmark.has_false_depth = false_depths_.erase(landmark.id) > 0;
+    row->Finish();
+    const std::vector<NamedObservation>& observations = observations_.Of<L>();
+    for (size_t& i = num_used_.Of<L>();
+         i < observations.size() && observations[i].landmark == landmark.id; ++i) {
+      const KeyframeId keyframe = observations[i].keyframe;
+      if (submap->map.FindKeyframe(keyframe) == nullptr)
+        row->Fail("a keyframe is in another submap");
+      if (FindObservation(landmark, keyframe) != nullptr)
+        row->Fail("two features observe it at once");
+      landmark.observations.push_back({keyframe, observations[i].feature});
+    }
+    if (landmark.observations.empty()) row->Fail("no keyframe observes it");
+    const LandmarkId id = landmark.id;
+    submap->map.AddExisting(std::move(landmark));
+    submap->map.Refresh<L>(id);
+  }
+
+  void ReadFalseDepths() {
+    SqliteStatement rows = database_.Prepare("SELECT * FROM false_depth ORDER BY landmark");
+    while (rows.Step()) {
+      RowReader row(rows, database_.path(), "false_depth");
+      false_depths_.insert(row.Integer());
+      row.Finish();
+    }
+  }
+
+  void ReadLoops() {
+    SqliteStatement rows = database_.Prepare("SELECT * FROM loop ORDER BY id");
+    while (rows.Step()) {
+      RowReader row(rows, database_.path(), "loop");
+      row.Integer();
+      PoseGraphEdge loop;
+      loop.from = row.Integer();
+      loop.to = row.Integer();
+      loop.to_from_from = ReadPose(&row);
+      try {
+        loop.covariance = ReadCovariance(&row);
+      } catch (const BlobError& error) {
+        row.Fail(error.what());
+      }
+      row.Finish();
+      const bool is_valid = loop.from >= 0 && loop.to >= 0 && loop.from < next_keyframe_ &&
+                            loop.to < next_keyframe_ &&
+                            std::abs(loop.to_from_from.rotation().norm() - 1.0) < 1e-9;
+      if (!is_valid) row.Fail("it is not valid");
+      contents_.loops.push_back(loop);
+    }
   }
 
   const SqliteDatabase& database_;
@@ -113,228 +321,6 @@ class TableReader {
   std::map<KeyframeId, std::vector<PlaneFeature>> planes_;  // of keyframes that are yet to be read
   std::set<LandmarkId> false_depths_;                       // of landmarks that are yet to be read
 };
-
-void TableReader::ReadIds() {
-  SqliteStatement rows = database_.Prepare("SELECT * FROM map");
-  if (!rows.Step()) Fail("its table map is empty");
-  RowReader row(rows, database_.path(), "map");
-  row.Integer();
-  next_keyframe_ = row.Integer();
-  next_landmark_ = row.Integer();
-  row.Text();
-  row.Finish();
-  if (next_keyframe_ < 0 || next_keyframe_ > kMaxKeyframes || next_landmark_ < 0 ||
-      next_landmark_ > kMaxLandmarks) {
-    row.Fail("the ids are not possible");
-  }
-}
-
-void TableReader::ReadSessions() {
-  SqliteStatement rows = database_.Prepare("SELECT * FROM session ORDER BY id");
-  KeyframeId last = 0;
-  while (rows.Step()) {
-    RowReader row(rows, database_.path(), "session");
-    row.Integer();
-    MapSession session;
-    session.first_keyframe = row.Integer();
-    session.name = row.Text();
-    row.Finish();
-    if (session.first_keyframe < last || session.first_keyframe > next_keyframe_) {
-      row.Fail("it is out of order");
-    }
-    last = session.first_keyframe;
-    contents_.sessions.push_back(session);
-  }
-}
-
-void TableReader::ReadSubMaps() {
-  SqliteStatement rows = database_.Prepare("SELECT * FROM submap ORDER BY id");
-  while (rows.Step()) {
-    RowReader row(rows, database_.path(), "submap");
-    SavedSubMap submap;
-    const int64_t id = row.Integer();
-    if (id < 0 || id > kMaxKeyframes) row.Fail("its id is not possible");
-    submap.id = static_cast<int>(id);
-    if (!row.IsNull()) {
-      AxesEstimate axes;
-      for (double& value : axes.world_from_axes.coeffs()) value = row.Real();
-      axes.sigma = row.Real();
-      axes.deviation = row.Real();
-      const bool is_valid = std::abs(axes.world_from_axes.norm() - 1.0) < 1e-9 &&
-                            axes.sigma > 0.0 && axes.deviation >= 0.0;
-      if (!is_valid) row.Fail("its axes are not valid");
-      submap.axes = axes;
-    } else {
-      for (int i = 0; i < 5; ++i) {
-        if (!row.IsNull()) row.Fail("its axes are not complete");
-      }
-    }
-    submap.noise_scale = {row.Real(), row.Real(), row.Real()};
-    const NoiseScale& noise = submap.noise_scale;
-    if (version_ >= kFirstVersionWithPlanes) submap.planes.noise = row.Real();
-    if (!(noise.point_depth > 0.0 && noise.line_pixel > 0.0 && noise.line_depth > 0.0 &&
-          submap.planes.noise > 0.0)) {
-      row.Fail("its noise is not positive");
-    }
-    row.Finish();
-    contents_.submaps.push_back(std::move(submap));
-  }
-}
-
-void TableReader::ReadKeyframes() {
-  SqliteStatement rows = database_.Prepare("SELECT * FROM keyframe ORDER BY id");
-  SqliteStatement features = database_.Prepare("SELECT * FROM features ORDER BY keyframe");
-  while (rows.Step()) {
-    RowReader row(rows, database_.path(), "keyframe");
-    if (!features.Step()) row.Fail("it has no features");
-    RowReader features_row(features, database_.path(), "features");
-    ReadKeyframe(&row, &features_row);
-  }
-  if (features.Step() || !planes_.empty()) Fail("it has features without a keyframe");
-  ForEachLandmarkKind([&](auto kind) {
-    auto& observations = observations_.Of<typename decltype(kind)::Landmark>();
-    std::sort(observations.begin(), observations.end());
-  });
-}
-
-void TableReader::ReadKeyframe(RowReader* row, RowReader* features) {
-  const KeyframeId id = row->Integer();
-  if (id < 0 || id >= next_keyframe_) row->Fail("its id is not possible");
-  SavedSubMap* const submap = FindSubMap(row->Integer());
-  if (submap == nullptr) row->Fail("its submap does not exist");
-  const Rigid3 cam_from_world = ReadPose(row);
-  row->Finish();
-  if (features->Integer() != id) row->Fail("it has no features");
-  try {
-    submap->map.AddKeyframe(ReadFrame(id, features), cam_from_world, id);
-    submap->map.SetStepCovariance(id, ReadCovariance(features));
-  } catch (const BlobError& error) {
-    features->Fail(error.what());
-  }
-  features->Finish();
-}
-
-std::shared_ptr<const Frame> TableReader::ReadFrame(KeyframeId id, RowReader* row) {
-  const auto frame = std::make_shared<Frame>();
-  frame->id = row->Integer();
-  frame->timestamp = row->Real();
-  const FrameCalibration* const calibration = calibrations_->Find(row->Integer());
-  if (calibration == nullptr) row->Fail("its calibration does not exist");
-  frame->camera = calibration->camera;
-  frame->intrinsics = calibration->intrinsics;
-  ReadFeatures<PointLandmark>(id, row, &*frame);
-  ReadFeatures<LineLandmark>(id, row, &*frame);
-  frame->depth_ranges = DecodeDepthRanges(row->Blob());
-  frame->grid = FeatureGrid(frame->camera, frame->points);
-  const auto planes = planes_.find(id);
-  if (planes != planes_.end()) {
-    frame->planes = std::move(planes->second);
-    planes_.erase(planes);
-  }
-  return frame;
-}
-
-template <typename L>
-void TableReader::ReadFeatures(KeyframeId id, RowReader* row, Frame* frame) {
-  auto& features = OfKind<L>(*frame);
-  DecodeFeatures(row->Blob(), &features);
-  std::vector<LandmarkId> landmarks;
-  DecodeLandmarks(row->Blob(), &landmarks);
-  if (landmarks.size() != features.size()) row->Fail("its features and landmarks do not fit");
-  for (size_t i = 0; i < landmarks.size(); ++i) {
-    observations_.Of<L>().push_back({landmarks[i], id, static_cast<int>(i)});
-  }
-}
-
-void ReadGeometry(RowReader* row, PointLandmark* point) {
-  for (double& x : point->position) x = row->Metres();
-}
-
-void ReadGeometry(RowReader* row, LineLandmark* line) {
-  for (double& x : line->segment.start) x = row->Metres();
-  for (double& x : line->segment.end) x = row->Metres();
-  line->depth_offset = row->Metres();
-}
-
-template <typename L>
-void TableReader::ReadLandmarks() {
-  SqliteStatement rows =
-      database_.Prepare(std::string("SELECT * FROM ") + L::kName + " ORDER BY id");
-  while (rows.Step()) {
-    RowReader row(rows, database_.path(), L::kName);
-    ReadLandmark<L>(&row);
-  }
-  if (num_used_.Of<L>() != observations_.Of<L>().size()) {
-    Fail("a feature observes a " + std::string(L::kName) + " that does not exist");
-  }
-}
-
-template <typename L>
-void TableReader::ReadLandmark(RowReader* row) {
-  L landmark;
-  landmark.id = row->Integer();
-  if (landmark.id < 0 || landmark.id >= next_landmark_) row->Fail("its id is not possible");
-  SavedSubMap* const submap = FindSubMap(row->Integer());
-  if (submap == nullptr) row->Fail("its submap does not exist");
-  landmark.first_keyframe = row->Integer();
-  ReadGeometry(row, &landmark);
-  const int64_t num_visible = row->Integer();
-  const int64_t num_found = row->Integer();
-  constexpr int64_t kMaxCount = int64_t{1} << 30;
-  if (num_found < 0 || num_visible < 0 || num_found > kMaxCount || num_visible > kMaxCount) {
-    row->Fail("its counts are not possible");
-  }
-  landmark.num_visible = static_cast<int>(num_visible);
-  landmark.num_found = static_cast<int>(num_found);
-  landmark.noise = row->Real();
-  landmark.has_false_depth = false_depths_.erase(landmark.id) > 0;
-  row->Finish();
-  const std::vector<NamedObservation>& observations = observations_.Of<L>();
-  for (size_t& i = num_used_.Of<L>();
-       i < observations.size() && observations[i].landmark == landmark.id; ++i) {
-    const KeyframeId keyframe = observations[i].keyframe;
-    if (submap->map.FindKeyframe(keyframe) == nullptr) row->Fail("a keyframe is in another submap");
-    if (FindObservation(landmark, keyframe) != nullptr)
-      row->Fail("two features observe it at once");
-    landmark.observations.push_back({keyframe, observations[i].feature});
-  }
-  if (landmark.observations.empty()) row->Fail("no keyframe observes it");
-  const LandmarkId id = landmark.id;
-  submap->map.AddExisting(std::move(landmark));
-  submap->map.Refresh<L>(id);
-}
-
-void TableReader::ReadFalseDepths() {
-  SqliteStatement rows = database_.Prepare("SELECT * FROM false_depth ORDER BY landmark");
-  while (rows.Step()) {
-    RowReader row(rows, database_.path(), "false_depth");
-    false_depths_.insert(row.Integer());
-    row.Finish();
-  }
-}
-
-void TableReader::ReadLoops() {
-  SqliteStatement rows = database_.Prepare("SELECT * FROM loop ORDER BY id");
-  while (rows.Step()) {
-    RowReader row(rows, database_.path(), "loop");
-    row.Integer();
-    PoseGraphEdge loop;
-    loop.from = row.Integer();
-    loop.to = row.Integer();
-    loop.to_from_from = ReadPose(&row);
-    try {
-      loop.covariance = ReadCovariance(&row);
-    } catch (const BlobError& error) {
-      row.Fail(error.what());
-    }
-    row.Finish();
-    const bool is_valid = loop.from >= 0 && loop.to >= 0 && loop.from < next_keyframe_ &&
-                          loop.to < next_keyframe_ &&
-                          std::abs(loop.to_from_from.rotation().norm() - 1.0) < 1e-9;
-    if (!is_valid) row.Fail("it is not valid");
-    contents_.loops.push_back(loop);
-  }
-}
 
 }  // namespace
 
