@@ -10,6 +10,10 @@ function(msc_vo_compile_options target)
     # Both are deliberate: loops that vectorise without branches, with a hint for GCC.
     target_compile_options(${target} PRIVATE -Wno-unknown-pragmas -Wno-bitwise-instead-of-logical)
   endif()
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # Collecting garbage takes a tenth of the time of GCC and saves a sixth of its memory: not before 1 GiB.
+    target_compile_options(${target} PRIVATE --param=ggc-min-heapsize=1048576)
+  endif()
   # To the compiler, files that are compiled together are one file: it warns about local names that
   # another one has, and GCC about unnamed namespaces in headers.
   set(together $<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>)
