@@ -3,6 +3,8 @@
 
 #include "msc_vo/frame/plane_feature.h"
 
+#include <cmath>
+
 namespace msc_vo {
 
 PlaneExtent PlaneFeature::Extent() const {
@@ -20,6 +22,21 @@ PlaneExtent PlaneFeature::Extent() const {
   }
   if (extent.size() < 3) extent.clear();  // only a corner or an edge is not too far
   return extent;
+}
+
+void PlaneFeature::Move(const Rigid3& new_from_old) {
+  // With a point x, q . x = 1.
+  const Eigen::Vector3d turned = new_from_old.rotation() * inverse_depth;
+  const double change = turned.dot(new_from_old.translation());
+  if (std::abs(change) < 0.5) inverse_depth = turned / (1.0 + change);
+}
+
+void PlaneFeature::AddMotionNoise(double rotation_sigma, double translation_sigma) {
+  const Eigen::Vector3d normal = Normal();
+  const double closeness = inverse_depth.norm();
+  const Eigen::Matrix3d along = normal * normal.transpose();
+  covariance += std::pow(closeness * rotation_sigma, 2) * (Eigen::Matrix3d::Identity() - along) +
+                std::pow(closeness * closeness * translation_sigma, 2) * along;
 }
 
 }  // namespace msc_vo

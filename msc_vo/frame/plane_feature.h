@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 
 #include <Eigen/Core>
@@ -42,21 +41,10 @@ struct PlaneFeature {
   /// Changes the camera frame of the plane, but of neither covariance nor extent, which hardly
   /// change in small motions. Keeps a plane whose distance would change by more than half, as by
   /// the velocity of a wrong pose.
-  void Move(const Rigid3& new_from_old) {
-    // With a point x, q . x = 1.
-    const Eigen::Vector3d turned = new_from_old.rotation() * inverse_depth;
-    const double change = turned.dot(new_from_old.translation());
-    if (std::abs(change) < 0.5) inverse_depth = turned / (1.0 + change);
-  }
+  void Move(const Rigid3& new_from_old);
   /// Adds the noise of an unknown motion of the camera: standard deviations of its rotation vector
   /// (radians) and of its translation (metres).
-  void AddMotionNoise(double rotation_sigma, double translation_sigma) {
-    const Eigen::Vector3d normal = Normal();
-    const double closeness = inverse_depth.norm();
-    const Eigen::Matrix3d along = normal * normal.transpose();
-    covariance += std::pow(closeness * rotation_sigma, 2) * (Eigen::Matrix3d::Identity() - along) +
-                  std::pow(closeness * closeness * translation_sigma, 2) * along;
-  }
+  void AddMotionNoise(double rotation_sigma, double translation_sigma);
 };
 
 }  // namespace msc_vo

@@ -4,6 +4,7 @@
 #include "msc_vo/geometry/line_fit.h"
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include <Eigen/Geometry>
@@ -146,6 +147,11 @@ class LineRansac {
 };
 
 }  // namespace
+
+double LineDepth::SigmaAt(double s) const {
+  const Eigen::Vector2d a(1.0 - s, s);
+  return std::sqrt(a.dot(covariance * a));
+}
 
 LineDepth Nearer(const LineDepth& depth, double offset) {
   LineDepth nearer = depth;

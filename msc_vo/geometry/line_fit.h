@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -33,10 +32,7 @@ struct LineDepth {
   /// Inverse depth at parameter s of the segment, 1/metres; 0: start, 1: end, extrapolated beyond.
   double At(double s) const { return (1.0 - s) * start + s * end; }
   /// Standard deviation of At(s), 1/metres; increases with extrapolation.
-  double SigmaAt(double s) const {
-    const Eigen::Vector2d a(1.0 - s, s);
-    return std::sqrt(a.dot(covariance * a));
-  }
+  double SigmaAt(double s) const;
 };
 
 /// Returns the depth of the line moved towards the camera: its depths z are smaller by `offset`

@@ -8,6 +8,21 @@
 
 namespace msc_vo {
 
+LineSegment3 LinePart::Of(const LineSegment3& line) const {
+  return IsWhole() ? line : LineSegment3{line.At(start), line.At(end)};
+}
+
+LineSegment3 operator*(const Rigid3& b_from_a, const LineSegment3& segment_in_a) {
+  return {b_from_a * Eigen::Vector3d(segment_in_a.start),
+          b_from_a * Eigen::Vector3d(segment_in_a.end)};
+}
+
+Eigen::Vector3d ImageLine(const LineSegment2& segment) {
+  const Eigen::Vector2d d = segment.Direction();
+  const Eigen::Vector2d n(-d.y(), d.x());
+  return {n.x(), n.y(), -n.dot(segment.start)};
+}
+
 bool ClipToNear(double near, LineSegment3* segment_in_cam) {
   const double a = segment_in_cam->start.z() - near;
   const double b = segment_in_cam->end.z() - near;

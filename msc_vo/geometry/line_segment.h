@@ -43,23 +43,14 @@ struct LinePart {
   double end = 1.0;
 
   bool IsWhole() const { return start == 0.0 && end == 1.0; }
-  LineSegment3 Of(const LineSegment3& line) const {
-    return IsWhole() ? line : LineSegment3{line.At(start), line.At(end)};
-  }
+  LineSegment3 Of(const LineSegment3& line) const;
 };
 
-inline LineSegment3 operator*(const Rigid3& b_from_a, const LineSegment3& segment_in_a) {
-  return {b_from_a * Eigen::Vector3d(segment_in_a.start),
-          b_from_a * Eigen::Vector3d(segment_in_a.end)};
-}
+LineSegment3 operator*(const Rigid3& b_from_a, const LineSegment3& segment_in_a);
 
 /// Infinite image line through a segment as (n, c) with |n| = 1: n . p + c is the signed distance
 /// of pixel p, pixels. Paper: n_j of Eq. errorreprline.
-inline Eigen::Vector3d ImageLine(const LineSegment2& segment) {
-  const Eigen::Vector2d d = segment.Direction();
-  const Eigen::Vector2d n(-d.y(), d.x());
-  return {n.x(), n.y(), -n.dot(segment.start)};
-}
+Eigen::Vector3d ImageLine(const LineSegment2& segment);
 
 /// Clips the segment to the half-space z >= near (metres, camera frame). Returns false if nothing
 /// remains.

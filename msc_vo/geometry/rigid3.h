@@ -13,13 +13,10 @@ namespace msc_vo {
 /// The seven parameters are contiguous, quaternion (x, y, z, w) first, then translation (metres):
 /// `params.data()` is a parameter block for Rigid3Manifold.
 struct Rigid3 {
-  Eigen::Matrix<double, 7, 1> params =
-      (Eigen::Matrix<double, 7, 1>() << 0, 0, 0, 1, 0, 0, 0).finished();
+  Eigen::Matrix<double, 7, 1> params;
 
-  Rigid3() = default;
-  Rigid3(const Eigen::Quaterniond& rotation, const Eigen::Vector3d& translation) {
-    params << rotation.coeffs(), translation;
-  }
+  Rigid3();  ///< the identity
+  Rigid3(const Eigen::Quaterniond& rotation, const Eigen::Vector3d& translation);
 
   Eigen::Map<Eigen::Quaterniond> rotation() {
     return Eigen::Map<Eigen::Quaterniond>(params.data());
@@ -32,21 +29,15 @@ struct Rigid3 {
     return Eigen::Map<const Eigen::Vector3d>(&params[4]);
   }
 
-  Rigid3 Inverse() const {
-    const Eigen::Quaterniond inverse = rotation().conjugate();
-    return {inverse, -(inverse * translation())};
-  }
+  Rigid3 Inverse() const;
 
   /// Origin of the target frame in the source frame: of cam_from_world, the camera centre in world.
-  Eigen::Vector3d OriginInSource() const { return -(rotation().conjugate() * translation()); }
+  Eigen::Vector3d OriginInSource() const;
 
   Eigen::Vector3d operator*(const Eigen::Vector3d& x) const {
     return rotation() * x + translation();
   }
-  Rigid3 operator*(const Rigid3& b_from_a) const {
-    return {(rotation() * b_from_a.rotation()).normalized(),
-            rotation() * b_from_a.translation() + translation()};
-  }
+  Rigid3 operator*(const Rigid3& b_from_a) const;
 
   template <typename Archive>
   void Serialize(Archive& archive) {

@@ -3,6 +3,7 @@
 
 #include "msc_vo/diagnosis/ground_truth_reading.h"
 
+#include <cmath>
 #include <functional>
 #include <random>
 #include <string>

@@ -3,6 +3,8 @@
 
 #include "msc_vo/report/trajectory_view.h"
 
+#include <cmath>
+
 #include "fake_run.h"
 #include <gtest/gtest.h>
 

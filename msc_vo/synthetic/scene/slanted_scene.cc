@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "msc_vo/geometry/so3.h"

@@ -4,6 +4,7 @@
 #include "msc_vo/synthetic/window/synthetic_window.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <utility>

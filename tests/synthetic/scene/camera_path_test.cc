@@ -4,6 +4,7 @@
 #include "msc_vo/synthetic/scene/camera_path.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include <gtest/gtest.h>

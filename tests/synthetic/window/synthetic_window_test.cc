@@ -4,6 +4,7 @@
 #include "msc_vo/synthetic/window/synthetic_window.h"
 
 #include <array>
+#include <cmath>
 #include <set>
 #include <stdexcept>
 
