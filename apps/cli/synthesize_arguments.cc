@@ -125,7 +125,7 @@ void AddImageArguments(CLI::App* command, SynthesizeArguments* arguments) {
                    "Fraction of the light of a well-lit room, 0.001 to 1: photon noise, and gain "
                    "that makes the images as bright as without; default: no photon noise")
       ->check(NumberFrom(0.001, 1.0));
-  command->add_flag("--hunting-exposure", arguments->hunting_exposure,
+  command->add_flag("--hunting-exposure", arguments->options.hunting_exposure,
                     "Automatic exposure that hunts by 60 % within two seconds, and vignetting");
   command
       ->add_option("--motion-blur", arguments->options.motion_blur,
@@ -292,8 +292,7 @@ SyntheticSequenceOptions SequenceOptions(const SynthesizeArguments& arguments) {
   if (options.specular.Any() && options.scene != SceneKind::kRoom) {
     throw UsageError("--specular needs the scene room: give --scene room");
   }
-  if (arguments.light > 0.0) options.photon_noise.emplace().light = arguments.light;
-  if (arguments.hunting_exposure) options.hunting_exposure.emplace();
+  if (arguments.light > 0.0) options.light = arguments.light;
   options.depth_rig = MakeRig(arguments.rig);
   options.lens = ParseLens(arguments.lens);
   if (arguments.turn_rate > 0.0) options.path.turn_rate = DegreesToRadians(arguments.turn_rate);

@@ -24,14 +24,13 @@ struct SynthesizeArguments {
   ColorEncoding encoding;
   bool overwrite = false;
   bool json = false;
-  std::vector<std::string> specular;  ///< names of surfaces
-  std::vector<double> depth_offset;   ///< pixels, of ICL-NUIM's noise; empty: none
-  std::vector<double> rig;            ///< focal length, x, y, roll; empty: registered depth
-  std::string lens;                   ///< MODEL:COEFFICIENTS; empty: none
-  double turn_rate = 0.0;             ///< degrees/second; 0: that of the path
-  double depth_bias = -1.0;           ///< metres; negative: that of the sensor
-  double light = 0.0;                 ///< fraction; 0: no photon noise
-  bool hunting_exposure = false;
+  std::vector<std::string> specular;          ///< names of surfaces
+  std::vector<double> depth_offset;           ///< pixels, of ICL-NUIM's noise; empty: none
+  std::vector<double> rig;                    ///< focal length, x, y, roll; empty: registered depth
+  std::string lens;                           ///< MODEL:COEFFICIENTS; empty: none
+  double turn_rate = 0.0;                     ///< degrees/second; 0: that of the path
+  double depth_bias = -1.0;                   ///< metres; negative: that of the sensor
+  double light = 0.0;                         ///< fraction; 0: no photon noise
   bool untold = false;                        ///< rig and lens are not in camera.txt
   double focal_length_error = 0.0;            ///< of camera.txt, per cent
   std::vector<double> principal_point_error;  ///< of camera.txt, pixels; empty: none

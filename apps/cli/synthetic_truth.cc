@@ -95,8 +95,8 @@ std::string FormatTruthJson(const SynthesizeArguments& arguments,
                      {"depth_bias", is_time_of_flight ? options.time_of_flight.bias : 0.0},
                      {"depth_offset", {offset.x(), offset.y()}},
                      {"image_sigma", options.image_sigma},
-                     {"light", options.photon_noise ? Json(options.photon_noise->light) : Json()},
-                     {"hunting_exposure", options.hunting_exposure.has_value()},
+                     {"light", options.light ? Json(*options.light) : Json()},
+                     {"hunting_exposure", options.hunting_exposure},
                      {"motion_blur", options.motion_blur},
                      {kSynthesizedOptions, arguments.values}};
   return json.dump(2) + "\n";

@@ -8,6 +8,7 @@
 
 #include "msc_vo/camera/lens_validity.h"
 #include "msc_vo/camera/undistorted_camera.h"
+#include "msc_vo/synthetic/scene/image_disturbances.h"
 #include "msc_vo/synthetic/scene/motion_blur.h"
 #include "msc_vo/synthetic/scene/random.h"
 
@@ -116,10 +117,8 @@ bool SyntheticSequenceOptions::IsValid(std::string* error) const {
     *error = "motion_blur must be from 0 to 1 times the time between two images";
   } else if (!(depth_factor > 0.0)) {
     *error = "depth_factor must be positive";
-  } else if (photon_noise && !photon_noise->IsValid(error)) {
-    return false;
-  } else if (hunting_exposure && !hunting_exposure->IsValid(error)) {
-    return false;
+  } else if (light && !(*light > 0.0 && *light <= 1.0)) {
+    *error = "photon noise: light must be more than 0 and at most 1";
   } else if (!(accelerometer_sigma >= 0.0)) {
     *error = "accelerometer_sigma must not be negative";
   } else if (!(accelerometer_rate > 0.0)) {
@@ -250,11 +249,9 @@ void SyntheticSequence::BlurMotion(double seconds, RenderedImage* image) const {
 
 void SyntheticSequence::DisturbColor(int index, RenderedImage* image) const {
   const uint64_t frame = static_cast<uint64_t>(index);
-  if (options_.hunting_exposure) {
-    ApplyHuntingExposure(*options_.hunting_exposure, index / options_.fps, image);
-  }
-  if (options_.photon_noise) {
-    AddPhotonNoise(*options_.photon_noise, walk_seed_, kPhotonStream + frame, image);
+  if (options_.hunting_exposure) ApplyHuntingExposure(index / options_.fps, image);
+  if (options_.light) {
+    AddPhotonNoise(*options_.light, walk_seed_, kPhotonStream + frame, image);
   }
   if (options_.image_sigma > 0.0 && noise_table_) {
     noise_table_->AddImageNoise(options_.image_sigma, 2 * frame, image);

@@ -15,10 +15,8 @@
 #include "msc_vo/geometry/timed_pose.h"
 #include "msc_vo/synthetic/scene/camera_path.h"
 #include "msc_vo/synthetic/scene/depth_artifacts.h"
-#include "msc_vo/synthetic/scene/hunting_exposure.h"
 #include "msc_vo/synthetic/scene/kinect_noise.h"
 #include "msc_vo/synthetic/scene/lens_warp.h"
-#include "msc_vo/synthetic/scene/photon_noise.h"
 #include "msc_vo/synthetic/scene/renderer.h"
 #include "msc_vo/synthetic/scene/scene.h"
 #include "msc_vo/synthetic/scene/specular_surface.h"
@@ -55,10 +53,10 @@ struct SyntheticSequenceOptions {
   double readout_time = 0.0;
   /// Standard deviation of the image noise, grey values; about 2 for a Kinect indoors.
   double image_sigma = 2.0;
-  /// Noise of dim light, in addition to image_sigma; none: no photon noise.
-  std::optional<PhotonNoiseOptions> photon_noise;
-  /// Gain and vignetting of the colour images; none: constant exposure.
-  std::optional<HuntingExposureOptions> hunting_exposure;
+  /// Fraction of the light of a well-lit scene, more than 0 and at most 1: AddPhotonNoise(), in
+  /// addition to image_sigma; none: no photon noise.
+  std::optional<double> light;
+  bool hunting_exposure = false;  ///< ApplyHuntingExposure(), otherwise constant exposure
   /// Exposure time of the colour images as a fraction of the time between two images, 0 to 1.
   double motion_blur = 0.0;
   SyntheticDepth depth = SyntheticDepth::kExact;

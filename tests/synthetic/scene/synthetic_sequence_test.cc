@@ -163,12 +163,12 @@ TEST(SyntheticSequenceTest, DepthFactorScalesRecordedDepth) {
 TEST(SyntheticSequenceTest, DimLightAndHuntingExposureChangeColourOnly) {
   const SyntheticFrame plain = SyntheticSequence(Small()).Render(14);
   SyntheticSequenceOptions options = Small();
-  options.photon_noise.emplace().light = 0.1;
+  options.light = 0.1;
   const SyntheticFrame dim = SyntheticSequence(options).Render(14);
   EXPECT_GT(Contrast(dim.image), 2 * Contrast(plain.image));
   EXPECT_EQ(dim.image.depth, plain.image.depth);
   options = Small();
-  options.hunting_exposure.emplace();
+  options.hunting_exposure = true;
   const SyntheticFrame bright = SyntheticSequence(options).Render(14);  // 0.47 s: most gain
   const size_t center = 3 * (60 * 160 + 80);
   EXPECT_GT(bright.image.rgb[center], std::min(255, plain.image.rgb[center] + 40) - 1);
@@ -245,11 +245,10 @@ TEST(SyntheticSequenceTest, ThrowsOnInvalidOptions) {
   options.depth_factor = 0.0;
   EXPECT_THROW(SyntheticSequence{options}, std::invalid_argument);
   options = Small();
-  options.photon_noise.emplace().light = 0.0;
-  EXPECT_THROW(SyntheticSequence{options}, std::invalid_argument);
-  options = Small();
-  options.hunting_exposure.emplace().period = 0.0;
-  EXPECT_THROW(SyntheticSequence{options}, std::invalid_argument);
+  for (const double light : {0.0, -0.1, 1.1, std::nan("")}) {
+    options.light = light;
+    EXPECT_THROW(SyntheticSequence{options}, std::invalid_argument) << light;
+  }
 }
 
 TEST(SyntheticSequenceTest, RejectsReadoutTimeAboveFrameInterval) {

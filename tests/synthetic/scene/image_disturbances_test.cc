@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/synthetic/scene/photon_noise.h"
+#include "msc_vo/synthetic/scene/image_disturbances.h"
 
-#include <cmath>
-#include <stdexcept>
+#include <cstdint>
 
 #include <gtest/gtest.h>
 
@@ -21,11 +20,9 @@ RenderedImage Flat(uint8_t value) {
 
 TEST(PhotonNoise, KeepsTheBrightnessAndGrowsWithIt) {
   for (const double light : {1.0, 0.2}) {
-    PhotonNoiseOptions options;
-    options.light = light;
     for (const uint8_t value : {40, 80, 120}) {
       RenderedImage image = Flat(value);
-      AddPhotonNoise(options, 1, 0, &image);
+      AddPhotonNoise(light, 1, 0, &image);
       double sum = 0.0, squares = 0.0;
       for (const uint8_t noisy : image.rgb) {
         sum += noisy;
@@ -41,7 +38,7 @@ TEST(PhotonNoise, KeepsTheBrightnessAndGrowsWithIt) {
 
 TEST(PhotonNoise, IsIndependentBetweenColours) {
   RenderedImage image = Flat(100);
-  AddPhotonNoise({}, 1, 0, &image);
+  AddPhotonNoise(1.0, 1, 0, &image);
   double products = 0.0, squares = 0.0;
   for (size_t i = 0; i < image.rgb.size(); i += 3) {
     products += (image.rgb[i] - 100.0) * (image.rgb[i + 1] - 100.0);
@@ -52,28 +49,55 @@ TEST(PhotonNoise, IsIndependentBetweenColours) {
 
 TEST(PhotonNoise, LeavesSaturatedPixels) {
   RenderedImage image = Flat(255);
-  AddPhotonNoise({}, 1, 0, &image);
+  AddPhotonNoise(1.0, 1, 0, &image);
   EXPECT_EQ(image.rgb, Flat(255).rgb);
 }
 
 TEST(PhotonNoise, DependsOnSeedAndFrameOnly) {
   RenderedImage a = Flat(100), b = Flat(100), other_frame = Flat(100), other_seed = Flat(100);
-  AddPhotonNoise({}, 1, 3, &a);
-  AddPhotonNoise({}, 1, 3, &b);
-  AddPhotonNoise({}, 1, 4, &other_frame);
-  AddPhotonNoise({}, 2, 3, &other_seed);
+  AddPhotonNoise(1.0, 1, 3, &a);
+  AddPhotonNoise(1.0, 1, 3, &b);
+  AddPhotonNoise(1.0, 1, 4, &other_frame);
+  AddPhotonNoise(1.0, 2, 3, &other_seed);
   EXPECT_EQ(a.rgb, b.rgb);
   EXPECT_NE(a.rgb, other_frame.rgb);
   EXPECT_NE(a.rgb, other_seed.rgb);
 }
 
-TEST(PhotonNoise, RejectsInvalidOptions) {
-  RenderedImage image = Flat(100);
-  for (const double light : {0.0, -0.1, 1.1, std::nan("")}) {
-    PhotonNoiseOptions options;
-    options.light = light;
-    EXPECT_THROW(AddPhotonNoise(options, 1, 0, &image), std::invalid_argument) << light;
+constexpr int kWidth = 161, kHeight = 121;
+
+// The image of an evenly lit wall `seconds` after the start.
+RenderedImage Wall(double seconds, uint8_t value = 100) {
+  RenderedImage image;
+  image.width = kWidth;
+  image.height = kHeight;
+  image.rgb.assign(3 * kWidth * kHeight, value);
+  ApplyHuntingExposure(seconds, &image);
+  return image;
+}
+
+uint8_t At(const RenderedImage& image, int x, int y) { return image.rgb[3 * (y * kWidth + x)]; }
+
+TEST(HuntingExposure, ChangesTheGainPeriodically) {
+  constexpr double kPeriod = 1.9;  // seconds
+  const auto center = [](double seconds) { return At(Wall(seconds), kWidth / 2, kHeight / 2); };
+  EXPECT_EQ(center(0.0), 100);
+  EXPECT_EQ(center(0.25 * kPeriod), 160);
+  EXPECT_EQ(center(0.75 * kPeriod), 40);
+  EXPECT_EQ(center(1.25 * kPeriod), 160);
+}
+
+TEST(HuntingExposure, DarkensTheCorners) {
+  const RenderedImage image = Wall(0.0);
+  for (const int x : {0, kWidth - 1}) {
+    for (const int y : {0, kHeight - 1}) EXPECT_EQ(At(image, x, y), 45);
   }
+  EXPECT_GT(At(image, 0, kHeight / 2), 45);
+  EXPECT_LT(At(image, 0, kHeight / 2), 100);
+}
+
+TEST(HuntingExposure, Saturates) {
+  EXPECT_EQ(At(Wall(0.25 * 1.9, 200), kWidth / 2, kHeight / 2), 255);
 }
 
 }  // namespace
