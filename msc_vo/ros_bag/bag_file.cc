@@ -10,9 +10,7 @@
 #include <string_view>
 
 #include "msc_vo/datasets/recording_file.h"
-#include "msc_vo/ros_bag/bag_folder.h"
-#include "msc_vo/ros_bag/ros1_bag.h"
-#include "msc_vo/ros_bag/ros2_bag.h"
+#include "msc_vo/ros_bag/bag_formats.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 

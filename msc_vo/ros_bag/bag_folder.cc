@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/ros_bag/bag_folder.h"
-
 #include <algorithm>
 #include <filesystem>
 #include <stdexcept>
@@ -12,6 +10,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "msc_vo/datasets/image_name.h"
+#include "msc_vo/ros_bag/bag_formats.h"
 #include "msc_vo/text/files.h"
 
 namespace msc_vo {

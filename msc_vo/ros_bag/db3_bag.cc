@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/ros_bag/db3_bag.h"
-
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -13,6 +11,7 @@
 
 #include <sqlite3.h>
 
+#include "msc_vo/ros_bag/bag_formats.h"
 #include "msc_vo/ros_bag/decompression.h"
 #include "msc_vo/ros_bag/topic_messages.h"
 #include "msc_vo/text/format_text.h"

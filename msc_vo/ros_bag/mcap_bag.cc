@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/ros_bag/mcap_bag.h"
-
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include "msc_vo/ros_bag/bag_formats.h"
 #include "msc_vo/ros_bag/decompression.h"
 #include "msc_vo/ros_bag/mcap_file.h"
 #include "msc_vo/ros_bag/ros_message.h"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/ros_bag/realsense_bag.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +11,7 @@
 
 #include <Eigen/Geometry>
 
+#include "msc_vo/ros_bag/bag_formats.h"
 #include "msc_vo/ros_bag/topic_choice.h"
 #include "msc_vo/text/text_file.h"
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/ros_bag/ros1_bag.h"
-
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -13,6 +11,7 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
+#include "msc_vo/ros_bag/bag_formats.h"
 #include "msc_vo/ros_bag/little_endian_fields.h"
 #include "msc_vo/text/files.h"
 

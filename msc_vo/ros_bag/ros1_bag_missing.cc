@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-#include "msc_vo/ros_bag/ros1_bag.h"
+#include "msc_vo/ros_bag/bag_formats.h"
 
 namespace msc_vo {
 

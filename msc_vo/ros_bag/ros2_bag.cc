@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/ros_bag/ros2_bag.h"
-
 #include <utility>
 
-#include "msc_vo/ros_bag/db3_bag.h"
+#include "msc_vo/ros_bag/bag_formats.h"
 #include "msc_vo/ros_bag/decompression.h"
-#include "msc_vo/ros_bag/mcap_bag.h"
-#include "msc_vo/ros_bag/realsense_bag.h"
 #include "msc_vo/text/files.h"
 
 namespace msc_vo {

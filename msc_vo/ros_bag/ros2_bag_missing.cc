@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-#include "msc_vo/ros_bag/ros2_bag.h"
+#include "msc_vo/ros_bag/bag_formats.h"
 #include "msc_vo/ros_bag/ros_fields.h"
 
 namespace msc_vo {

@@ -4,8 +4,6 @@
 // Bags as the RealSense viewer records them: of ROS 1, and since 2025 SQLite files with bare pixels
 // and values as text. Topics and texts as its library writes them.
 
-#include "msc_vo/ros_bag/realsense_bag.h"
-
 #include "tests/ros_bag/bag_writer.h"
 #include "tests/ros_bag/message_bytes.h"
 #include "tests/support/message_matchers.h"
@@ -14,6 +12,7 @@
 
 #include "msc_vo/datasets/rgbd_decoder.h"
 #include "msc_vo/datasets/sequence_calibration.h"
+#include "msc_vo/ros_bag/bag_formats.h"
 #include "msc_vo/ros_bag/bag_sequence.h"
 
 namespace msc_vo {
