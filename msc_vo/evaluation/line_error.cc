@@ -8,9 +8,31 @@
 #include <limits>
 #include <stdexcept>
 
+#include "msc_vo/geometry/angles.h"
+
 namespace msc_vo {
 
 namespace {
+
+// Lines with fewer observations are skipped: no third view has confirmed the match of the first
+// two.
+constexpr int kMinObservations = 3;
+// Shorter lines are skipped, metres: 20 cm are 35 pixels at 3 m, where half a pixel at an end turns
+// the line by a degree.
+constexpr double kMinLength = 0.20;
+// Bounds across: the image measures an edge to a pixel or two, which is 10 mm at 3 m for a focal
+// length of 525 px and, in opposite directions at both ends of 20 cm, 3 degrees. A line with a
+// larger offset belongs to another edge.
+constexpr double kMaxAcross = 0.01;                        // metres
+constexpr double kMaxAngleAcross = DegreesToRadians(3.0);  // radians
+// Bounds along the viewing direction: the depth at one or both ends may be that of the surface
+// behind the edge. 0.1 m are ten standard deviations of a Kinect at 2.5 m; over 20 cm they are a
+// slope of 27 degrees.
+constexpr double kMaxAlong = 0.10;                    // metres
+constexpr double kMaxAngle = DegreesToRadians(27.0);  // radians, total angle
+// Distance of the line's midpoint beyond the end of the edge, metres: lines grow while they are
+// observed.
+constexpr double kMaxBeyond = 0.10;
 
 // Offset of a line from an edge.
 struct Offset {
@@ -39,30 +61,27 @@ Offset ComputeOffset(const EstimatedLine& line, const LineSegment3& edge) {
   return offset;
 }
 
-bool IsWithinBounds(const Offset& offset, const LineEvaluationOptions& options) {
-  return offset.angle <= options.max_angle && offset.angle_across <= options.max_angle_across &&
-         offset.across <= options.max_across && offset.along <= options.max_along &&
-         offset.beyond <= options.max_beyond;
+bool IsWithinBounds(const Offset& offset) {
+  return offset.angle <= kMaxAngle && offset.angle_across <= kMaxAngleAcross &&
+         offset.across <= kMaxAcross && offset.along <= kMaxAlong && offset.beyond <= kMaxBeyond;
 }
 
 // Sum of the squared offsets, each relative to its bound.
-double Cost(const Offset& offset, const LineEvaluationOptions& options) {
-  return Eigen::Vector4d(offset.angle / options.max_angle,
-                         offset.angle_across / options.max_angle_across,
-                         offset.across / options.max_across, offset.along / options.max_along)
+double Cost(const Offset& offset) {
+  return Eigen::Vector4d(offset.angle / kMaxAngle, offset.angle_across / kMaxAngleAcross,
+                         offset.across / kMaxAcross, offset.along / kMaxAlong)
       .squaredNorm();
 }
 
 // Returns the index of the edge that matches the line; -1 if there is none.
-int FindEdge(const EstimatedLine& line, const std::vector<LineSegment3>& edges,
-             const LineEvaluationOptions& options) {
+int FindEdge(const EstimatedLine& line, const std::vector<LineSegment3>& edges) {
   int best = -1;
   double least = std::numeric_limits<double>::infinity();
   for (size_t i = 0; i < edges.size(); ++i) {
     const Offset offset = ComputeOffset(line, edges[i]);
-    if (!IsWithinBounds(offset, options) || Cost(offset, options) >= least) continue;
+    if (!IsWithinBounds(offset) || Cost(offset) >= least) continue;
     best = static_cast<int>(i);
-    least = Cost(offset, options);
+    least = Cost(offset);
   }
   return best;
 }
@@ -74,26 +93,9 @@ EstimatedLine Transformed(const Rigid3& reference_from_estimate, const Estimated
 
 }  // namespace
 
-bool LineEvaluationOptions::IsValid(std::string* error) const {
-  if (!(min_length > 0.0)) {
-    *error = "line evaluation: min_length must be positive";
-  } else if (!(max_across > 0.0 && max_angle_across > 0.0 && max_along > 0.0 && max_angle > 0.0)) {
-    *error =
-        "line evaluation: max_across, max_angle_across, max_along and max_angle must be positive";
-  } else if (!(max_beyond >= 0.0)) {
-    *error = "line evaluation: max_beyond must not be negative";
-  } else {
-    return true;
-  }
-  return false;
-}
-
 LineError EvaluateLines(const std::vector<LineSegment3>& edges,
                         const std::vector<EstimatedLine>& lines,
-                        const Rigid3& reference_from_estimate,
-                        const LineEvaluationOptions& options) {
-  std::string problem;
-  if (!options.IsValid(&problem)) throw std::invalid_argument(problem);
+                        const Rigid3& reference_from_estimate) {
   for (const LineSegment3& edge : edges) {
     if (!(edge.Length() > 0.0)) {
       throw std::invalid_argument("line evaluation: an edge has no length; remove it");
@@ -106,11 +108,11 @@ LineError EvaluateLines(const std::vector<LineSegment3>& edges,
   std::vector<bool> is_found(edges.size(), false);
   std::vector<double> directions, distances, across;
   for (const EstimatedLine& estimated : lines) {
-    if (estimated.num_observations < options.min_observations) continue;
-    if (!(estimated.segment.Length() >= options.min_length)) continue;
+    if (estimated.num_observations < kMinObservations) continue;
+    if (!(estimated.segment.Length() >= kMinLength)) continue;
     ++error.num_counted;
     const EstimatedLine line = Transformed(reference_from_estimate, estimated);
-    const int edge = FindEdge(line, edges, options);
+    const int edge = FindEdge(line, edges);
     if (edge < 0) continue;
     ++error.num_matched;
     is_found[edge] = true;
