@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// How the costs of a map grow with its keyframes: memory, the query of a place, the optimisation of
-// a pose graph with one loop, and the map file.
+// How the costs of a map grow with its keyframes: memory, a snapshot, the query of a place, the
+// optimisation of a pose graph with one loop, and the map file.
 
 #include <algorithm>
 #include <chrono>
@@ -113,6 +113,27 @@ void Memory(benchmark::State& state) {
   state.counters["index_MB"] = index_size;
 }
 
+// The time to publish a snapshot, as the mapper does after every keyframe, and to modify the map
+// afterwards. Arguments: number of keyframes in the map, and number of points that are modified
+// before each snapshot, the newest ones. The previous snapshot is released, as in tracking.
+void Snapshot(benchmark::State& state) {
+  Map map = MakeMap(static_cast<int>(state.range(0)));
+  std::vector<LandmarkId> moved;
+  for (const auto& [id, point] : map.points()) moved.push_back(id);
+  moved.erase(moved.begin(), moved.end() - state.range(1));
+  MapSnapshotPtr newest;
+  for (auto _ : state) {
+    for (const LandmarkId id : moved) {
+      map.SetGeometry<PointLandmark>(id, Eigen::Vector3d(0.0, 0.0, 3.0));
+    }
+    auto snapshot = std::make_shared<MapSnapshot>();
+    snapshot->map = map.Share();
+    newest = std::move(snapshot);
+  }
+  state.counters["points"] = static_cast<double>(map.points().size());
+  state.counters["lines"] = static_cast<double>(map.lines().size());
+}
+
 void PlaceQuery(benchmark::State& state) {
   MapSnapshot snapshot;
   snapshot.map = MakeMap(static_cast<int>(state.range(0)));
@@ -219,6 +240,7 @@ void Sizes(benchmark::internal::Benchmark* benchmark) {
   benchmark->Arg(100)->Arg(300)->Arg(1000)->Arg(3000)->Arg(10000)->Unit(benchmark::kMillisecond);
 }
 BENCHMARK(Memory)->Apply(Sizes)->Iterations(1);
+BENCHMARK(Snapshot)->ArgsProduct({{15, 60, 240}, {0, 1000}})->Unit(benchmark::kMillisecond);
 BENCHMARK(PlaceQuery)->Apply(Sizes);
 // With renumbering, which happens once in as many replacements as there are keyframes.
 BENCHMARK(PlaceReplacement)->Arg(1000)->Iterations(2000)->Unit(benchmark::kMillisecond);
