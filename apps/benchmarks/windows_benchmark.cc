@@ -10,20 +10,120 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
 #include <map>
+#include <memory>
+#include <optional>
+#include <sstream>
 #include <stdexcept>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <benchmark/benchmark.h>
 
-#include "apps/benchmarks/benchmark_windows.h"
+#include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
 #include "msc_vo/factors/relative_pose.h"
+#include "msc_vo/recording/window_file.h"
+#include "msc_vo/synthetic/window/synthetic_window.h"
 #include "msc_vo/timing/stopwatch.h"
 
 namespace msc_vo {
 
 namespace {
+
+struct BenchmarkWindow {
+  BundleAdjustmentOptions options;
+  WindowData data;
+};
+
+// A named window that is created or read at its first use.
+class NamedWindow {
+ public:
+  NamedWindow(std::string name, std::function<BenchmarkWindow()> make)
+      : name_(std::move(name)), make_(std::move(make)) {}
+
+  const std::string& name() const { return name_; }
+  const BenchmarkWindow& Get() const {
+    if (!window_) window_ = make_();
+    return *window_;
+  }
+
+ private:
+  std::string name_;
+  std::function<BenchmarkWindow()> make_;
+  mutable std::optional<BenchmarkWindow> window_;
+};
+using WindowPtr = std::shared_ptr<const NamedWindow>;
+
+enum class WindowContent { kPoints, kLines, kStructure };
+
+constexpr int kNumFixed = 3;
+constexpr int kPointsPerKeyframe = 150, kLinesPerKeyframe = 15;
+constexpr int kPartners = 4;          // of each kind
+constexpr double kPairSigma = 0.012;  // radians: 0.7 degrees
+
+void AddPairs(const WindowData& truth, WindowData* data) {
+  for (size_t i = 0; i < truth.lines.size(); ++i) {
+    const Eigen::Vector3d direction = truth.lines[i].segment.Direction();
+    int num_parallel = 0, num_perpendicular = 0;
+    for (size_t j = i + 1; j < truth.lines.size(); ++j) {
+      const double cosine = std::abs(direction.dot(truth.lines[j].segment.Direction()));
+      const WindowData::LinePair pair{truth.lines[i].id, truth.lines[j].id, kPairSigma, 3, false};
+      if (cosine > 0.9999 && num_parallel++ < kPartners) data->parallel_pairs.push_back(pair);
+      if (cosine < 1e-4 && num_perpendicular++ < kPartners) {
+        data->perpendicular_pairs.push_back(pair);
+      }
+    }
+  }
+}
+
+BenchmarkWindow MakeWindow(WindowContent content, int num_keyframes) {
+  SyntheticWindowOptions scene;
+  scene.num_keyframes = num_keyframes + kNumFixed;
+  scene.num_fixed = kNumFixed;
+  scene.num_points = kPointsPerKeyframe * num_keyframes;
+  scene.num_lines = content == WindowContent::kPoints ? 0 : kLinesPerKeyframe * num_keyframes;
+  scene.outlier_ratio = 0.03;
+  const SyntheticWindow window = MakeSyntheticWindow(scene);
+  BenchmarkWindow result;
+  result.data = window.data;
+  if (content == WindowContent::kStructure) AddPairs(window.truth, &result.data);
+  return result;
+}
+
+// A synthetic window of a furnished room: `num_keyframes` free keyframes and three fixed ones, and
+// per free keyframe 150 points and, unless the content is kPoints, up to 15 lines. With kStructure,
+// every line is paired with the next four parallel and the next four perpendicular lines, which is
+// harder than the windows of a map, where pairs concentrate on a few lines.
+WindowPtr SyntheticBenchmarkWindow(WindowContent content, int num_keyframes) {
+  constexpr const char* kNames[] = {"points", "lines", "structure"};
+  return std::make_shared<NamedWindow>(
+      kNames[static_cast<int>(content)] + ("_" + std::to_string(num_keyframes)),
+      [=] { return MakeWindow(content, num_keyframes); });
+}
+
+// The window files listed in the environment variable MSC_VO_WINDOWS, separated by colons. Throws
+// std::runtime_error, naming the file, if one cannot be read.
+std::vector<WindowPtr> RecordedWindows() {
+  std::vector<WindowPtr> windows;
+  const char* files = std::getenv("MSC_VO_WINDOWS");
+  std::istringstream stream(files == nullptr ? "" : files);
+  for (std::string file; std::getline(stream, file, ':');) {
+    const std::filesystem::path path(file);
+    windows.push_back(std::make_shared<NamedWindow>(
+        path.parent_path().filename().string() + "_" + path.stem().string(), [file] {
+          const RecordedWindow window = ReadWindow(file);
+          return BenchmarkWindow{window.options, window.data};
+        }));
+    windows.back()->Get();  // report errors in the file immediately
+  }
+  return windows;
+}
 
 struct Variant {
   const char* name;
