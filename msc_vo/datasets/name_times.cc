@@ -5,11 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <ctime>
 #include <functional>
 #include <set>
 #include <utility>
 
-#include "msc_vo/datasets/calendar_time.h"
 #include "msc_vo/datasets/median_interval.h"
 #include "msc_vo/datasets/stamp_precision.h"
 #include "msc_vo/text/text_file.h"
@@ -78,6 +79,54 @@ Texts AppendFraction(const Texts& seconds, const Texts& column, bool is_behind_p
   const bool are_decimals =
       is_behind_point && CountRegularSteps(Numbers(decimals)) >= CountRegularSteps(Numbers(padded));
   return are_decimals ? decimals : padded;
+}
+
+// A date and a time of day in the name of an image.
+struct CalendarTime {
+  int64_t seconds = 0;   // since 1970, the time read as UTC
+  std::string fraction;  // digits that follow the seconds in the same run; may be empty
+  size_t last_run = 0;   // run of digits that holds the seconds
+};
+
+// A field of a date or a time of day.
+struct DateField {
+  size_t num_digits;
+  int min;
+  int max;
+};
+
+constexpr DateField kDateFields[] = {{4, 2000, 2099}, {2, 1, 12}, {2, 1, 31},
+                                     {2, 0, 23},      {2, 0, 59}, {2, 0, 60}};
+
+// Reads year, month, day, hour, minute and second from the runs of digits that begin with
+// `first_run`: "2023-05-01_12-30-15", "20230501T123015", "20230501123015123". Other text may
+// separate the runs. None if the digits are no date of this century with a time of day.
+std::optional<CalendarTime> ReadCalendarTime(const NameParts& name, size_t first_run) {
+  size_t run = first_run, at = 0;  // position in the run
+  int values[6] = {};
+  for (size_t i = 0; i < 6; ++i) {
+    const DateField& field = kDateFields[i];
+    if (run < name.digits.size() && at == name.digits[run].size()) {
+      ++run;
+      at = 0;
+    }
+    if (run >= name.digits.size()) return std::nullopt;
+    const std::string& digits = name.digits[run];
+    const bool is_unpadded = i > 0 && digits.size() == 1;  // "2023-5-1"
+    const size_t count = is_unpadded ? 1 : field.num_digits;
+    if (digits.size() < at + count) return std::nullopt;
+    values[i] = std::stoi(digits.substr(at, count));
+    if (values[i] < field.min || values[i] > field.max) return std::nullopt;
+    at += count;
+  }
+  std::tm time = {};
+  time.tm_year = values[0] - 1900;
+  time.tm_mon = values[1] - 1;
+  time.tm_mday = values[2];
+  time.tm_hour = values[3];
+  time.tm_min = values[4];
+  time.tm_sec = values[5];
+  return CalendarTime{timegm(&time), name.digits[run].substr(at), run};
 }
 
 // The date and the time of day that begin with a run, if all names have them there.
