@@ -15,7 +15,8 @@
 #include "apps/cli/progress.h"
 #include "apps/cli/synthesize_arguments.h"
 #include "apps/cli/synthesized_folder.h"
-#include "apps/cli/synthetic_truth.h"
+#include "apps/cli/usage_error.h"
+#include "msc_vo/datasets/calibration.h"
 #include "msc_vo/datasets/camera_file.h"
 #include "msc_vo/results/ply_file.h"
 #include "msc_vo/text/files.h"
@@ -26,6 +27,102 @@ namespace msc_vo {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+Json IntrinsicsToJson(const PinholeCamera& camera) {
+  return {{"fx", camera.fx}, {"fy", camera.fy},       {"cx", camera.cx},
+          {"cy", camera.cy}, {"width", camera.width}, {"height", camera.height}};
+}
+
+Json DepthCameraToJson(const DepthCamera& depth_camera) {
+  const Eigen::Vector3d t = depth_camera.depth_from_color.translation();
+  const Eigen::Quaterniond q(depth_camera.depth_from_color.rotation());
+  Json json = IntrinsicsToJson(depth_camera.camera);
+  json["translation"] = {t.x(), t.y(), t.z()};
+  json["rotation"] = {q.x(), q.y(), q.z(), q.w()};
+  return json;
+}
+
+// Calibration of the cameras that record a sequence of these options: intrinsics and lens of the
+// recorded images, depth camera, depth scale (of true depth) and readout time.
+Calibration TrueCalibration(const SyntheticSequenceOptions& options,
+                            const SyntheticSequence& sequence) {
+  Calibration calibration;
+  calibration.camera = sequence.camera();
+  calibration.distortion = options.lens;
+  calibration.depth_scale = kRenderedDepthScale * options.depth_factor;
+  calibration.readout_time = options.readout_time;
+  if (options.depth_rig) {
+    calibration.depth_camera =
+        DepthCamera{sequence.depth_camera(), options.depth_rig->depth_from_color};
+  }
+  return calibration;
+}
+
+// What camera.txt says instead of `truth`. Throws UsageError if that is no camera.
+Calibration GivenCalibration(const SynthesizeArguments& arguments, const Calibration& truth) {
+  Calibration given = truth;
+  given.depth_scale = kRenderedDepthScale;
+  given.readout_time.reset();
+  if (arguments.untold) {
+    given.distortion = {};
+    given.depth_camera.reset();
+  }
+  const double focal_length_ratio = 1.0 + arguments.focal_length_error / 100.0;
+  given.camera.fx *= focal_length_ratio;
+  given.camera.fy *= focal_length_ratio;
+  if (!arguments.principal_point_error.empty()) {
+    given.camera.cx += arguments.principal_point_error[0];
+    given.camera.cy += arguments.principal_point_error[1];
+  }
+  given.SetUndistorted();
+  std::string error;
+  if (!given.IsValid(&error)) {
+    throw UsageError("the errors of camera.txt are too large: " + error);
+  }
+  return given;
+}
+
+// Intrinsics and lens of the recorded images, and the rest of a calibration. `depth_camera` and
+// `readout_time` are null if there is none.
+Json CalibrationToJson(const Calibration& calibration) {
+  Json json = IntrinsicsToJson(calibration.Recorded());
+  json["lens"] = LensModelName(calibration.distortion.model);
+  json["distortion"] = calibration.distortion.Coefficients();
+  json["depth_scale"] = calibration.depth_scale;
+  json["readout_time"] = calibration.readout_time ? Json(*calibration.readout_time) : Json();
+  json["depth_camera"] =
+      calibration.depth_camera ? DepthCameraToJson(*calibration.depth_camera) : Json();
+  return json;
+}
+
+// Text of truth.json: the true calibration, what camera.txt says, the errors of the images, and the
+// options of the command.
+std::string FormatTruthJson(const SynthesizeArguments& arguments,
+                            const SyntheticSequenceOptions& options, const Calibration& truth,
+                            const Calibration& given) {
+  const bool is_time_of_flight = options.depth == SyntheticDepth::kTimeOfFlight;
+  const Eigen::Vector2d offset = options.depth == SyntheticDepth::kIclNuim
+                                     ? options.icl_nuim.lateral_offset
+                                     : Eigen::Vector2d::Zero();
+  const Json json = {{"scene", arguments.scene},
+                     {"seed", options.seed},
+                     {"path", options.walk.path},
+                     {"returns", options.walk.returns},
+                     {"specular", arguments.specular},
+                     {"camera", CalibrationToJson(truth)},
+                     {"given", CalibrationToJson(given)},
+                     {"depth_sensor", ToString(options.depth)},
+                     {"depth_delay", options.depth_delay},
+                     {"depth_bias", is_time_of_flight ? options.time_of_flight.bias : 0.0},
+                     {"depth_offset", {offset.x(), offset.y()}},
+                     {"image_sigma", options.image_sigma},
+                     {"light", options.light ? Json(*options.light) : Json()},
+                     {"hunting_exposure", options.hunting_exposure},
+                     {"motion_blur", options.motion_blur},
+                     {kSynthesizedOptions, arguments.values}};
+  return json.dump(2) + "\n";
+}
 
 // The options that were given, and the defaults of the others, by name.
 std::map<std::string, std::string> ValuesOf(const std::vector<CLI::Option*>& options) {
@@ -59,14 +156,14 @@ void WriteAccelerometer(const fs::path& folder, const std::vector<TimedAccelerat
 
 void PrintJson(const SynthesizeArguments& arguments, const Calibration& truth, int num_done,
                int num_frames) {
-  const nlohmann::ordered_json json = {{"directory", arguments.folder},
-                                       {"scene", arguments.scene},
-                                       {"seed", arguments.options.seed},
-                                       {"path", arguments.options.walk.path},
-                                       {"frames", num_done},
-                                       {"complete", num_done == num_frames},
-                                       {"camera", CalibrationToJson(truth)}};
-  std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << std::endl;
+  const Json json = {{"directory", arguments.folder},
+                     {"scene", arguments.scene},
+                     {"seed", arguments.options.seed},
+                     {"path", arguments.options.walk.path},
+                     {"frames", num_done},
+                     {"complete", num_done == num_frames},
+                     {"camera", CalibrationToJson(truth)}};
+  std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << std::endl;
 }
 
 // Writes the true edges of the scene.
