@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/cli/argument_checks.h"
 #include "apps/cli/calibration_report.h"
 #include "apps/cli/calibration_rounds.h"
 #include "apps/cli/command_log.h"
@@ -19,7 +20,6 @@
 #include "apps/cli/configuration_arguments.h"
 #include "apps/cli/input_check.h"
 #include "apps/cli/output_file.h"
-#include "apps/cli/plot_file.h"
 #include "apps/cli/sequence_arguments.h"
 #include "apps/cli/sequence_run.h"
 #include "apps/cli/usage_error.h"

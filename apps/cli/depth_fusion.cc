@@ -3,14 +3,13 @@
 
 #include "apps/cli/depth_fusion.h"
 
-#include <filesystem>
 #include <stdexcept>
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "apps/cli/argument_checks.h"
 #include "apps/cli/command_log.h"
-#include "apps/cli/number_range.h"
 #include "apps/cli/progress.h"
 #include "msc_vo/image_files/image_file.h"
 #include "msc_vo/sensor/lens_remap.h"
@@ -111,11 +110,6 @@ ColoredMesh ExtractSurface(const SurfaceFusion& fusion, const SurfaceFusionOptio
   }
   SortMesh(&mesh);
   return mesh;
-}
-
-std::string CheckPlyFileName(const std::string& path) {
-  if (std::filesystem::path(path).extension() == ".ply") return "";
-  return "a surface is a PLY file, whose name must end in .ply, not " + path;
 }
 
 void AddFusionArguments(CLI::App* command, SurfaceFusionOptions* options) {

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -15,9 +14,6 @@
 #include "msc_vo/datasets/rgbd_decoder.h"
 
 namespace msc_vo {
-
-/// For CLI11: an error unless a path ends in .ply.
-std::string CheckPlyFileName(const std::string& path);
 
 /// Declares --voxel, --max-depth, --min-observations and --max-memory.
 void AddFusionArguments(CLI::App* command, SurfaceFusionOptions* options);

@@ -10,11 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "apps/cli/argument_checks.h"
 #include "apps/cli/command_log.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/evaluation_output.h"
-#include "apps/cli/number_range.h"
-#include "apps/cli/plot_file.h"
 #include "apps/cli/usage_error.h"
 #include "msc_vo/datasets/trajectory_format.h"
 #include "msc_vo/evaluation/line_error.h"
@@ -134,7 +133,7 @@ int Run(EvaluateArguments arguments) {
 }
 
 template <typename Value>
-std::vector<std::string> NamesOf(const std::map<std::string, Value>& values) {
+std::vector<std::string> KeysOf(const std::map<std::string, Value>& values) {
   std::vector<std::string> names;
   for (const auto& [name, value] : values) names.push_back(name);
   return names;
@@ -155,7 +154,7 @@ void AddOptionsOfTheField(CLI::App* command, EvaluateArguments* arguments) {
   command
       ->add_option("--delta-unit", arguments->delta_unit,
                    "Unit of --delta: frames, metres of path or seconds (f, m, s)")
-      ->check(CLI::IsMember(NamesOf(DeltaUnits())))
+      ->check(CLI::IsMember(KeysOf(DeltaUnits())))
       ->capture_default_str();
   command->add_flag("--all-pairs", arguments->options.rpe_delta.all_pairs,
                     "RPE over a pair from every pose, not only over consecutive pairs");

@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
+#include "apps/cli/argument_checks.h"
 #include "apps/cli/commands.h"
-#include "apps/cli/number_range.h"
 #include "apps/cli/run_export.h"
 #include "apps/cli/usage_error.h"
 

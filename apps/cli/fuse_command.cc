@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "apps/cli/argument_checks.h"
 #include "apps/cli/command_log.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/configuration_arguments.h"
 #include "apps/cli/depth_fusion.h"
 #include "apps/cli/input_check.h"
 #include "apps/cli/modules.h"
-#include "apps/cli/number_range.h"
 #include "apps/cli/output_file.h"
 #include "apps/cli/posed_images.h"
 #include "apps/cli/sequence_arguments.h"

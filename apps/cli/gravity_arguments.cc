@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/cli/number_range.h"
+#include "apps/cli/argument_checks.h"
 #include "msc_vo/datasets/accelerometer.h"
 #include "msc_vo/geometry/angles.h"
 

@@ -9,9 +9,9 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "apps/cli/argument_checks.h"
 #include "apps/cli/command_log.h"
 #include "apps/cli/commands.h"
-#include "apps/cli/number_range.h"
 #include "apps/cli/replay_exports.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "apps/cli/argument_checks.h"
 #include "apps/cli/command_log.h"
 #include "apps/cli/exported_map.h"
 #include "apps/cli/interrupt_guard.h"

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "apps/cli/number_range.h"
+#include "apps/cli/argument_checks.h"
 #include "apps/cli/usage_error.h"
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/text/text_file.h"

@@ -5,9 +5,18 @@
 
 #include <string>
 
+#include <CLI/CLI.hpp>
+
 #include "msc_vo/report/plot_page.h"
 
 namespace msc_vo {
+
+/// Checks that an argument is a number from `min` to `max`. Unlike CLI::Range, it refuses nan, and
+/// negative numbers for unsigned integers.
+CLI::Validator NumberFrom(double min, double max);
+
+/// For CLI11: an error unless a path ends in .ply.
+std::string CheckPlyFileName(const std::string& path);
 
 /// For CLI11: an error unless a path ends in .html or .svg.
 std::string CheckPlotFileName(const std::string& path);

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SPDX-FileCopyrightText: 2026 the msc_vo authors
+
+#include "apps/cli/argument_checks.h"
+
+#include <filesystem>
+#include <optional>
+
+#include "msc_vo/text/files.h"
+#include "msc_vo/text/format_text.h"
+#include "msc_vo/text/text_file.h"
+
+namespace msc_vo {
+
+namespace {
+
+bool HasExtension(const std::string& path, const char* extension) {
+  return std::filesystem::path(path).extension() == extension;
+}
+
+}  // namespace
+
+CLI::Validator NumberFrom(double min, double max) {
+  const std::string range = FormatText("[%.12g - %.12g]", min, max);
+  return CLI::Validator(
+      [min, max, range](const std::string& text) {
+        const std::optional<double> value = ParseNumber(text);
+        return value && *value >= min && *value <= max ? std::string()
+                                                       : "Value " + text + " not in range " + range;
+      },
+      "in " + range);
+}
+
+std::string CheckPlyFileName(const std::string& path) {
+  if (HasExtension(path, ".ply")) return "";
+  return "a surface is a PLY file, whose name must end in .ply, not " + path;
+}
+
+std::string CheckPlotFileName(const std::string& path) {
+  if (HasExtension(path, ".html") || HasExtension(path, ".svg")) return "";
+  return "must end in .html or .svg, not " + path;
+}
+
+void WritePlotFile(const std::string& path, const PlotPage& page) {
+  WriteFile(path, HasExtension(path, ".svg") ? FormatPageSvg(page) : FormatPageHtml(page));
+}
+
+}  // namespace msc_vo
