@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <limits>
@@ -17,7 +18,6 @@
 
 #include "apps/cli/commands.h"
 #include "apps/cli/output_file.h"
-#include "apps/cli/terminal.h"
 #include "msc_vo/logging/logger.h"
 #include "msc_vo/text/files.h"
 
@@ -68,10 +68,23 @@ void EndLog(const std::string& file, const std::string& problem) {
   PrintWarning((file.empty() ? "standard error" : file) + ": the log ends here: " + problem);
 }
 
+std::string Environment(const char* name) {
+  const char* const value = std::getenv(name);
+  return value ? value : "";
+}
+
+// Whether text on standard error may be coloured: it is a terminal other than "dumb", and the
+// environment variable NO_COLOR is not set or empty (https://no-color.org).
+bool HasColors() {
+  return isatty(STDERR_FILENO) == 1 && Environment("NO_COLOR").empty() &&
+         Environment("TERM") != "dumb";
+}
+
 void Print(spdlog::level::level_enum level, const std::string& text) {
-  const std::string label = level == spdlog::level::warn
-                                ? Colored("warning:", Color::kYellow, STDERR_FILENO)
-                                : Colored("error:", Color::kRed, STDERR_FILENO);
+  constexpr char kRed[] = "\x1b[31m", kYellow[] = "\x1b[33m", kEnd[] = "\x1b[0m";
+  const bool is_warning = level == spdlog::level::warn;
+  std::string label = is_warning ? "warning:" : "error:";
+  if (HasColors()) label = (is_warning ? kYellow : kRed) + label + kEnd;
   std::cerr << "msc_vo: " << label << " " << text << std::endl;
   if (!log_file.empty()) Log().log(level, text);
 }
