@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <iostream>
 #include <memory>
+#include <string>
 
 #include <nlohmann/json.hpp>
 
@@ -12,7 +13,6 @@
 #include "apps/cli/configuration_arguments.h"
 #include "apps/cli/sequence_arguments.h"
 #include "msc_vo/diagnosis/sequence_check.h"
-#include "msc_vo/results/findings_json.h"
 
 namespace msc_vo {
 
@@ -41,6 +41,32 @@ const char* Label(Severity severity) {
 std::ptrdiff_t Count(const Findings& findings, Severity severity) {
   return std::count_if(findings.begin(), findings.end(),
                        [severity](const Finding& finding) { return finding.severity == severity; });
+}
+
+nlohmann::ordered_json ToJson(const Finding& finding) {
+  nlohmann::ordered_json json = {{"check", finding.check}, {"severity", ToString(finding.severity)},
+                                 {"text", finding.text},   {"fix", nullptr},
+                                 {"value", nullptr},       {"unit", nullptr}};
+  if (!finding.fix.empty()) json["fix"] = finding.fix;
+  if (finding.value) {
+    json["value"] = *finding.value;
+    json["unit"] = finding.unit;
+  }
+  return json;
+}
+
+// "sequence", "format", "errors", "warnings", and "findings" in the order of the text output, each
+// with "check", "severity", "text", "fix", "value" and "unit"; the last three are null if there is
+// none. Invalid UTF-8, for instance in paths, is replaced.
+std::string FormatFindingsJson(const SequenceIndex& sequence, const Findings& findings) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Finding& finding : findings) list.push_back(ToJson(finding));
+  const nlohmann::ordered_json json = {{"sequence", sequence.directory},
+                                       {"format", sequence.format},
+                                       {"errors", Count(findings, Severity::kError)},
+                                       {"warnings", Count(findings, Severity::kWarning)},
+                                       {"findings", list}};
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 int Run(const CheckArguments& arguments) {
