@@ -15,7 +15,6 @@
 
 #include "apps/cli/command_log.h"
 #include "apps/cli/exported_images.h"
-#include "apps/cli/map_input.h"
 #include "apps/cli/output_file.h"
 #include "apps/cli/run_map.h"
 #include "msc_vo/exports/colmap_model.h"

@@ -14,7 +14,7 @@
 
 #include "apps/cli/commands.h"
 #include "apps/cli/export_folder.h"
-#include "apps/cli/map_input.h"
+#include "apps/cli/run_map.h"
 #include "msc_vo/exports/map_export.h"
 #include "msc_vo/map_file/map_images.h"
 #include "msc_vo/map_file/map_reader.h"

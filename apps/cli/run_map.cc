@@ -13,10 +13,10 @@
 #include <utility>
 
 #include "apps/cli/command_log.h"
-#include "apps/cli/map_input.h"
 #include "apps/cli/sequence_arguments.h"
 #include "msc_vo/logging/logger.h"
 #include "msc_vo/map_file/map_images.h"
+#include "msc_vo/map_file/map_reader.h"
 #include "msc_vo/matching/local_map.h"
 #include "msc_vo/results/thumbnail.h"
 #include "msc_vo/text/files.h"
@@ -92,6 +92,17 @@ std::string NewSessionName(const std::string& sequence) {
   char text[32];
   std::strftime(text, sizeof(text), "%Y-%m-%d %H:%M:%S", &utc);
   return sequence + FormatText(", %s.%03d UTC", text, static_cast<int>(milliseconds));
+}
+
+MapContents LoadKeyframes(const std::string& path) {
+  MapContents contents = LoadMap(path);
+  const bool has_keyframes =
+      std::any_of(contents.submaps.begin(), contents.submaps.end(),
+                  [](const SavedSubMap& submap) { return !submap.map.keyframes().empty(); });
+  if (!has_keyframes) {
+    throw std::runtime_error(path + ": has no keyframes; build a map with msc_vo replay --map");
+  }
+  return contents;
 }
 
 KeyframeRange FindSession(const std::vector<MapSession>& sessions, const std::string& sequence) {

@@ -12,6 +12,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "msc_vo/map/map_contents.h"
 #include "msc_vo/map_file/map_writer.h"
 #include "msc_vo/odometry/localization.h"
 #include "msc_vo/odometry/odometry.h"
@@ -34,6 +35,10 @@ void AddMapArguments(CLI::App* command, MapArguments* arguments);
 /// A name for the session of a run that begins now: the name of its sequence and the time. No other
 /// run has it.
 std::string NewSessionName(const std::string& sequence);
+
+/// Reads a map that must have keyframes. Throws as LoadMap(), and std::runtime_error if it has
+/// none.
+MapContents LoadKeyframes(const std::string& path);
 
 /// The keyframes `first`, ..., `end` - 1.
 struct KeyframeRange {
