@@ -12,7 +12,6 @@
 #include "apps/python/arrays.h"
 #include "apps/python/bindings.h"
 #include "apps/python/factors.h"
-#include "apps/python/observations.h"
 #include "apps/python/option_table.h"
 #include "apps/python/window_arrays.h"
 #include "msc_vo/bundle_adjustment/window_covariance.h"

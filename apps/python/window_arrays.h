@@ -40,4 +40,13 @@ pybind11::array_t<double> PosesOf(const WindowData& window);
 RowMajorMatrix PointsOf(const WindowData& window);
 RowMajorMatrix LinesOf(const WindowData& window);
 
+// Items of a window as dictionaries of arrays whose names are the arguments of the function of
+// WindowData that adds them: window.add_point_observations(**other.point_observations).
+
+pybind11::dict PointObservationArrays(const std::vector<WindowData::PointObservation>& items);
+/// Depths that are not measured are nan.
+pybind11::dict LineObservationArrays(const std::vector<WindowData::LineObservation>& items);
+pybind11::dict LinePairArrays(const std::vector<WindowData::LinePair>& items);
+pybind11::dict AxisAlignmentArrays(const std::vector<WindowData::AxisAlignment>& items);
+
 }  // namespace msc_vo
