@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "msc_vo/odometry/odometry.h"
+#include "msc_vo/synthetic/scene/surface_view.h"
 #include "msc_vo/synthetic/scene/synthetic_sequence.h"
-#include "msc_vo/synthetic/scene/true_returns.h"
 
 namespace msc_vo {
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "msc_vo/camera/pinhole_camera.h"
+#include "msc_vo/geometry/angles.h"
 #include "msc_vo/geometry/rigid3.h"
 #include "msc_vo/synthetic/scene/scene.h"
 
@@ -35,5 +36,26 @@ double OverlapOf(const SurfaceView& a, const SurfaceView& b);
 
 /// Angle between the optical axes of two images, radians.
 double ViewingAngle(const SurfaceView& a, const SurfaceView& b);
+
+struct ReturnOptions {
+  /// Least overlap with the earlier image, in both directions.
+  double min_overlap = 0.3;
+  double max_angle = DegreesToRadians(45.0);  ///< between the optical axes, radians
+  /// The camera has left a place if an image in between shows at most this ratio of the later
+  /// image's surfaces.
+  double max_between = 0.05;
+};
+
+/// A time in which the camera is back at a place that it had left. Indices of views.
+struct TrueReturn {
+  int first = 0, last = 0;  ///< the consecutive views that show an earlier place
+  int later = 0;            ///< of these, the one with the largest overlap
+  int earlier = 0;          ///< view of the same place before
+  double overlap = 0.0;     ///< of both, the smaller direction
+};
+
+/// Finds the returns among views in order of time.
+std::vector<TrueReturn> FindReturns(const std::vector<SurfaceView>& views,
+                                    const ReturnOptions& options = {});
 
 }  // namespace msc_vo

@@ -12,8 +12,8 @@
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/synthetic/scene/camera_path.h"
 #include "msc_vo/synthetic/scene/renderer.h"
+#include "msc_vo/synthetic/scene/surface_view.h"
 #include "msc_vo/synthetic/scene/synthetic_sequence.h"
-#include "msc_vo/synthetic/scene/true_returns.h"
 
 namespace msc_vo {
 namespace {

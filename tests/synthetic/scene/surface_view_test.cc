@@ -11,7 +11,6 @@
 #include "msc_vo/synthetic/scene/camera_path.h"
 #include "msc_vo/synthetic/scene/renderer.h"
 #include "msc_vo/synthetic/scene/scene_builder.h"
-#include "msc_vo/synthetic/scene/true_returns.h"
 
 namespace msc_vo {
 namespace {
