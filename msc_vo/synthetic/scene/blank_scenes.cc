@@ -11,17 +11,20 @@ namespace msc_vo {
 
 namespace {
 
-const Eigen::Vector3f kWhite(0.86f, 0.86f, 0.86f);
+const Eigen::Vector3f kPlainWhite(0.86f, 0.86f, 0.86f);
 
-// A hall without furniture, lit from one side so that its walls differ in brightness.
-void AddBlankHall(const Eigen::Vector3d& low, const Eigen::Vector3d& high, SceneBuilder* builder) {
-  const Texture white = builder->NewTexture(TextureKind::kPlain, kWhite);
-  const Texture floor = builder->NewTexture(TextureKind::kPlain, 0.75f * kWhite);
+// Adds a hall without furniture, lit from one side so that its walls differ in brightness. Returns
+// the texture of its walls.
+Texture AddBlankHall(const Eigen::Vector3d& low, const Eigen::Vector3d& high,
+                     SceneBuilder* builder) {
+  const Texture white = builder->NewTexture(TextureKind::kPlain, kPlainWhite);
+  const Texture floor = builder->NewTexture(TextureKind::kPlain, 0.75f * kPlainWhite);
   builder->AddHall(low, high, floor, white, white);
   builder->scene().ambient = 0.36;
   const double x = high.x() - low.x(), y = high.y() - low.y();
   builder->scene().lights = {{{low.x() + 0.7 * x, low.y() + 0.4 * y, high.z() - 0.3}, 0.85, 2.4},
                              {{low.x() + 0.2 * x, low.y() + 0.6 * y, high.z() - 0.3}, 0.30, 2.4}};
+  return white;
 }
 
 // Waypoints along a wall of constant y and back, from -`reach` to `reach` along x, metres.
@@ -42,7 +45,60 @@ void AddWalkPastAWall(double reach, double y, const Eigen::Vector2d& heights, do
   }
 }
 
+// Adds `count` upright panels that zigzag at +-45 degrees from `from` in direction `along`. Their
+// visible sides face to the left of `along`.
+void AddZigZag(const Eigen::Vector3d& from, const Eigen::Vector3d& along, double panel,
+               double height, int count, const Texture& texture, SceneBuilder* builder) {
+  const Eigen::Vector3d left = Eigen::Vector3d::UnitZ().cross(along);
+  Eigen::Vector3d at = from;
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Vector3d step =
+        panel * std::sqrt(0.5) * (along + (i % 2 == 0 ? 1.0 : -1.0) * left);
+    // step x up points to the right of the step: start at the far end to face left.
+    builder->AddQuad({at + step, -step, height * Eigen::Vector3d::UnitZ(), texture});
+    at += step;
+  }
+}
+
 }  // namespace
+
+Scene MakeBare(uint64_t seed) {
+  SceneBuilder builder(seed);
+  Random& random = builder.random();
+  const double x = 2.6 + random.Uniform(-0.1, 0.2), y = 2.3 + random.Uniform(-0.1, 0.2);
+  const Texture white = AddBlankHall({-x, -y, 0}, {x, y, 2.5}, &builder);
+  builder.scene().lights = {{{0.9, -0.5, 2.2}, 0.85, 2.4}, {{-1.4, 0.3, 2.2}, 0.30, 2.4}};
+
+  // Folds along the two long walls, facing the middle.
+  const double panel = 0.62, fold = panel * std::sqrt(0.5);
+  const int folds = 2 * static_cast<int>((2.0 * x - 0.4) / (2.0 * fold));
+  const double start = 0.5 * folds * fold;
+  AddZigZag({-start, -y + 0.05, 0}, Eigen::Vector3d::UnitX(), panel, 1.8, folds, white, &builder);
+  AddZigZag({start, y - 0.05, 0}, -Eigen::Vector3d::UnitX(), panel, 1.8, folds, white, &builder);
+  // Boxes along the two other walls, parallel to them.
+  for (const double sign : {-1.0, 1.0}) {
+    double at = -y + 0.65;
+    while (at < y - 1.0) {
+      const double width = random.Uniform(0.35, 0.6), depth = random.Uniform(0.3, 0.7);
+      const double tall = random.Uniform(0.4, 1.5);
+      builder.AddBox(UprightFrame({sign * x, 0, 0}, sign * 0.5 * kPi), {sign * at, 0, 0},
+                     {sign * at + width, depth, tall}, white);
+      at += width + random.Uniform(0.1, 0.3);
+    }
+  }
+  // Low boxes in the middle, below the trajectory.
+  builder.AddBox(UprightFrame({0, 0, 0}, 0.0), {-0.55, -0.3, 0}, {0.05, 0.3, 0.55}, white);
+  builder.AddBox(UprightFrame({0, 0, 0}, 0.0), {0.05, -0.3, 0}, {0.5, 0.15, 0.3}, white);
+
+  const int count = 8;
+  for (int i = 0; i < count; ++i) {
+    const double around = 2.0 * kPi * i / count, ahead = around + DegreesToRadians(100.0);
+    builder.AddWaypoint(
+        {0.9 * std::cos(around), 0.75 * std::sin(around), 1.35 + random.Uniform(-0.12, 0.12)},
+        {x * std::cos(ahead), y * std::sin(ahead), random.Uniform(0.5, 0.8)});
+  }
+  return builder.scene();
+}
 
 Scene MakeBlank(uint64_t seed) {
   SceneBuilder builder(seed);
@@ -65,17 +121,13 @@ Scene MakeBlank(uint64_t seed) {
 Scene MakeZigZag(uint64_t seed) {
   SceneBuilder builder(seed);
   Random& random = builder.random();
-  const Texture white = builder.NewTexture(TextureKind::kPlain, kWhite);
+  const Texture white = builder.NewTexture(TextureKind::kPlain, kPlainWhite);
   AddBlankHall({-4.0, -3.0, 0}, {4.0, 3.0, 2.5}, &builder);
   // Upright panels at +-45 degrees, as high as the hall, that face the middle of it.
   const double panel = 0.55 + random.Uniform(-0.05, 0.05), fold = panel * std::sqrt(0.5);
   const int count = 2 * static_cast<int>(3.0 / fold);
-  Eigen::Vector3d at(-0.5 * count * fold, -1.0, 0.0);
-  for (int i = 0; i < count; ++i) {
-    const Eigen::Vector3d step(fold, i % 2 == 0 ? fold : -fold, 0.0);
-    builder.AddQuad({at + step, -step, 2.5 * Eigen::Vector3d::UnitZ(), white});
-    at += step;
-  }
+  AddZigZag({-0.5 * count * fold, -1.0, 0.0}, Eigen::Vector3d::UnitX(), panel, 2.5, count, white,
+            &builder);
   // So close that the image shows little else.
   AddWalkPastAWall(0.9, 0.35, {0.8, 0.3}, -0.8, &builder);
   return builder.scene();
