@@ -14,7 +14,7 @@
 #include "apps/cli/sequence_arguments.h"
 #include "apps/cli/usage_error.h"
 #include "msc_vo/logging/logger.h"
-#include "msc_vo/report/live_page.h"
+#include "msc_vo/report/viewer_page.h"
 #include "msc_vo/results/report_frame.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"

@@ -8,7 +8,6 @@
 #include "fake_run.h"
 #include <gmock/gmock.h>
 
-#include "msc_vo/report/live_page.h"
 #include "msc_vo/report/web_assets.h"
 
 namespace msc_vo {
