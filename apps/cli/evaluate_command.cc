@@ -17,7 +17,6 @@
 #include "apps/cli/usage_error.h"
 #include "msc_vo/datasets/trajectory_format.h"
 #include "msc_vo/evaluation/line_error.h"
-#include "msc_vo/evaluation/segment_error.h"
 #include "msc_vo/evaluation/trajectory_error.h"
 #include "msc_vo/results/error_json.h"
 #include "msc_vo/results/ply_file.h"

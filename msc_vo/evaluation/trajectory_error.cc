@@ -4,6 +4,7 @@
 #include "msc_vo/evaluation/trajectory_error.h"
 
 #include <algorithm>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -363,6 +364,24 @@ std::vector<TimedPose> Transformed(const Rigid3& reference_from_estimate,
     pose.world_from_cam = reference_from_estimate * pose.world_from_cam;
   }
   return estimate;
+}
+
+std::vector<SegmentError> EvaluateSegments(const std::vector<TimedPose>& reference,
+                                           const std::vector<TimedPose>& estimate,
+                                           const EvaluationOptions& options) {
+  std::map<int, std::vector<TimedPose>> segments;
+  for (const TimedPose& pose : estimate) segments[pose.segment].push_back(pose);
+  std::vector<SegmentError> errors;
+  if (segments.size() < 2) return errors;
+  for (const auto& [segment, poses] : segments) {
+    errors.push_back({segment, poses.front().world, EvaluateTrajectory(reference, poses, options)});
+  }
+  return errors;
+}
+
+bool HasSeveralWorlds(const std::vector<TimedPose>& poses) {
+  return std::any_of(poses.begin(), poses.end(),
+                     [&poses](const TimedPose& pose) { return pose.world != poses.front().world; });
 }
 
 }  // namespace msc_vo

@@ -123,4 +123,20 @@ std::optional<Rigid3> AlignOrientations(const std::vector<TimedPose>& reference,
 std::vector<TimedPose> Transformed(const Rigid3& reference_from_estimate,
                                    std::vector<TimedPose> estimate, double scale = 1.0);
 
+/// Errors of one segment of a trajectory, with an alignment of its own.
+struct SegmentError {
+  int segment = 0;
+  int world = 0;
+  TrajectoryError error;
+};
+
+/// Compares each segment (TimedPose::segment) with the reference by itself, in order of their
+/// numbers. Empty if there is only one, whose error is that of the whole trajectory.
+std::vector<SegmentError> EvaluateSegments(const std::vector<TimedPose>& reference,
+                                           const std::vector<TimedPose>& estimate,
+                                           const EvaluationOptions& options = {});
+
+/// Whether the poses are in worlds with an unknown transform between them.
+bool HasSeveralWorlds(const std::vector<TimedPose>& poses);
+
 }  // namespace msc_vo

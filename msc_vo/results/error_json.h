@@ -7,7 +7,6 @@
 #include <string>
 
 #include "msc_vo/evaluation/line_error.h"
-#include "msc_vo/evaluation/segment_error.h"
 #include "msc_vo/evaluation/trajectory_error.h"
 
 namespace msc_vo {

@@ -12,7 +12,6 @@
 #include "msc_vo/config/option_list.h"
 #include "msc_vo/datasets/calibration.h"
 #include "msc_vo/datasets/sequence.h"
-#include "msc_vo/evaluation/segment_error.h"
 #include "msc_vo/evaluation/trajectory_error.h"
 #include "msc_vo/odometry/loss_cause.h"
 #include "msc_vo/odometry/odometry.h"

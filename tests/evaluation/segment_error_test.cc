@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/evaluation/segment_error.h"
-
 #include "tests/evaluation/curved_path.h"
 #include <gmock/gmock.h>
 
+#include "msc_vo/evaluation/trajectory_error.h"
 #include "msc_vo/geometry/so3.h"
 
 namespace msc_vo {

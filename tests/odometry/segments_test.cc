@@ -7,7 +7,7 @@
 #include "tests/support/rendered_images.h"
 #include <gmock/gmock.h>
 
-#include "msc_vo/evaluation/segment_error.h"
+#include "msc_vo/evaluation/trajectory_error.h"
 #include "msc_vo/odometry/odometry.h"
 
 namespace msc_vo {
