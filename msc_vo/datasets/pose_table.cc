@@ -12,7 +12,7 @@
 #include "msc_vo/datasets/median_interval.h"
 #include "msc_vo/datasets/stamp_precision.h"
 #include "msc_vo/datasets/time_unit.h"
-#include "msc_vo/datasets/trajectory_comment.h"
+#include "msc_vo/datasets/trajectory_format.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {

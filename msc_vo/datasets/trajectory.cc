@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "msc_vo/datasets/trajectory_comment.h"
 #include "msc_vo/datasets/trajectory_format.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"

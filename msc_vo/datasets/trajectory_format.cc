@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 #include <utility>
 
@@ -178,6 +179,14 @@ void CopyStamps(const TrajectoryFile& from, TrajectoryFile* to) {
   to->has_stamps = true;
 }
 
+// Of comments above poses.
+constexpr char kNotEstimated[] = "not estimated";
+constexpr char kSegmentFormat[] = "segment %d, world %d";
+
+bool HasEnding(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
 }  // namespace
 
 const char* ToString(TrajectoryFormat format) {
@@ -271,6 +280,23 @@ void ShareStamps(const std::string& reference_path, const std::string& estimate_
                              without + ", which has no time stamps; correct these rows");
   }
   CopyStamps(timed, reference->has_stamps ? estimate : reference);
+}
+
+std::string FormatPoseComment(const TimedPose& pose, int segment, int world) {
+  std::string comment;
+  if (pose.segment != segment || pose.world != world) {
+    comment = FormatText(kSegmentFormat, pose.segment, pose.world);
+  }
+  if (!pose.is_estimated) comment += (comment.empty() ? "" : ", ") + std::string(kNotEstimated);
+  return comment;
+}
+
+void ReadPoseComment(const std::string& comment, TimedPose* pose) {
+  pose->is_estimated = !HasEnding(comment, kNotEstimated);
+  int segment = 0, world = 0;
+  if (std::sscanf(comment.c_str(), kSegmentFormat, &segment, &world) != 2) return;
+  pose->segment = segment;
+  pose->world = world;
 }
 
 }  // namespace msc_vo

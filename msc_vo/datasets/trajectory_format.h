@@ -69,4 +69,12 @@ void ConvertToSeconds(const std::string& reference_path, const std::string& esti
 void ShareStamps(const std::string& reference_path, const std::string& estimate_path,
                  TrajectoryFile* reference, TrajectoryFile* estimate);
 
+/// The comment above a pose in a trajectory file, "segment 2, world 0, not estimated"; empty if the
+/// pose needs none. `segment` and `world` are those of the pose before it.
+std::string FormatPoseComment(const TimedPose& pose, int segment, int world);
+
+/// Reads the comment above a pose, whose segment and world are those of the pose before it. Other
+/// comments have no effect.
+void ReadPoseComment(const std::string& comment, TimedPose* pose);
+
 }  // namespace msc_vo
