@@ -41,8 +41,4 @@ std::string CheckPlotFileName(const std::string& path) {
   return "must end in .html or .svg, not " + path;
 }
 
-void WritePlotFile(const std::string& path, const PlotPage& page) {
-  WriteFile(path, HasExtension(path, ".svg") ? FormatPageSvg(page) : FormatPageHtml(page));
-}
-
 }  // namespace msc_vo

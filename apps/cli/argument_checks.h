@@ -7,8 +7,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "msc_vo/report/plot_page.h"
-
 namespace msc_vo {
 
 /// Checks that an argument is a number from `min` to `max`. Unlike CLI::Range, it refuses nan, and
@@ -20,9 +18,5 @@ std::string CheckPlyFileName(const std::string& path);
 
 /// For CLI11: an error unless a path ends in .html or .svg.
 std::string CheckPlotFileName(const std::string& path);
-
-/// Writes a page (.html) or an image (.svg). Throws std::runtime_error, naming the file, if it
-/// cannot be written.
-void WritePlotFile(const std::string& path, const PlotPage& page);
 
 }  // namespace msc_vo

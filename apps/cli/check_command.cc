@@ -55,9 +55,10 @@ nlohmann::ordered_json ToJson(const Finding& finding) {
   return json;
 }
 
-// "sequence", "format", "errors", "warnings", and "findings" in the order of the text output, each
-// with "check", "severity", "text", "fix", "value" and "unit"; the last three are null if there is
-// none. Invalid UTF-8, for instance in paths, is replaced.
+// The output of `msc_vo check --json`: "sequence", "format", "errors", "warnings", and "findings"
+// in the order of the text output, each with "check", "severity", "text", "fix", "value" and
+// "unit"; the last three are null if there is none. Invalid UTF-8, for instance in paths, is
+// replaced.
 std::string FormatFindingsJson(const SequenceIndex& sequence, const Findings& findings) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const Finding& finding : findings) list.push_back(ToJson(finding));

@@ -133,9 +133,9 @@ int Run(EvaluateArguments arguments) {
 
 template <typename Value>
 std::vector<std::string> KeysOf(const std::map<std::string, Value>& values) {
-  std::vector<std::string> names;
-  for (const auto& [name, value] : values) names.push_back(name);
-  return names;
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : values) keys.push_back(key);
+  return keys;
 }
 
 void AddOptionsOfTheField(CLI::App* command, EvaluateArguments* arguments) {

@@ -3,8 +3,8 @@
 
 #include "apps/cli/evaluation_output.h"
 
-#include "apps/cli/argument_checks.h"
 #include "apps/cli/commands.h"
+#include "apps/cli/output_file.h"
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/report/trajectory_comparison.h"
 #include "msc_vo/text/format_text.h"

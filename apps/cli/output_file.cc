@@ -9,6 +9,7 @@
 
 #include "msc_vo/results/sequence_identity.h"
 #include "msc_vo/text/files.h"
+#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 
@@ -85,6 +86,11 @@ void CheckOutputFile(const std::string& file, const std::vector<std::string>& in
     RefuseToReplaceInSequence(sequence, file, mark, overwrite);
   }
   CheckWritable(file);
+}
+
+void WritePlotFile(const std::string& path, const PlotPage& page) {
+  const bool is_image = std::filesystem::path(path).extension() == ".svg";
+  WriteFile(path, is_image ? FormatPageSvg(page) : FormatPageHtml(page));
 }
 
 }  // namespace msc_vo

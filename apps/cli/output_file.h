@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "msc_vo/datasets/sequence.h"
+#include "msc_vo/report/plot_page.h"
 
 namespace msc_vo {
 
@@ -34,5 +35,9 @@ void RefuseToReplaceInSequence(const SequenceIndex& sequence, const std::string&
 void CheckOutputFile(const std::string& file, const std::vector<std::string>& inputs,
                      const std::vector<SequenceIndex>& sequences, const std::string& mark,
                      std::optional<bool> overwrite = {});
+
+/// Writes a page (.svg: as an image). Throws std::runtime_error, naming the file, if it cannot be
+/// written.
+void WritePlotFile(const std::string& path, const PlotPage& page);
 
 }  // namespace msc_vo

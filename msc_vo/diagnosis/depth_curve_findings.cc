@@ -13,14 +13,14 @@ namespace msc_vo {
 namespace {
 
 struct CurveText {
-  const char* name;  // %.0f: the value at distance 0, raw units
+  const char* name;  // a format; %.0f: the value at distance 0, raw units
   const char* fix;   // follows kWriteAgain
 };
 
 constexpr char kWriteAgain[] = "write the depth images again, with depth along the optical axis: ";
 constexpr char kDecode[] = "the inverse function of what they were encoded with, times depth_scale";
 
-// In the order of DepthCurve.
+// In the order of DepthCurve; depth itself has no finding.
 constexpr CurveText kCurveTexts[] = {
     {"depth", ""},
     {"inverse depth (disparity)",

@@ -77,6 +77,7 @@ HandEye FitWithPrior(const std::vector<MotionComparison>& comparisons,
   return result;
 }
 
+// Of the time offset.
 constexpr double kTimeStep = 0.01;     // seconds, of the offsets that are tried
 constexpr double kTurnInterval = 0.1;  // seconds, of the rotations that are compared
 constexpr size_t kMinTurns = 20;

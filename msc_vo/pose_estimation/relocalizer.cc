@@ -36,13 +36,10 @@ constexpr int kMaxIterations = 200;
 // whose depths are noisy. 9 pixels at a focal length of 525.
 constexpr double kMaxAngle = DegreesToRadians(1.0);
 
-// Score of the second best pose, relative to the best, above which neither is believed.
-constexpr double kMaxRival = 0.8;
-
-constexpr int kNoDistance = 257;  // more than the 256 bits of a descriptor
+constexpr int kNoBits = 257;  // more than the 256 bits of a descriptor
 // Bits between descriptors; stricter than for matching by projection, where the predicted position
 // excludes most wrong candidates.
-constexpr int kMaxDistance = 64;
+constexpr int kMaxBits = 64;
 constexpr double kMaxRatio = 0.8;  // best over second best descriptor distance, of points
 
 // Lines with a less certain direction do not determine a rotation.
@@ -50,6 +47,9 @@ constexpr double kMaxDirectionSigma = DegreesToRadians(5.0);
 // Bounds of the search, which is quadratic in their product. Forty lines cover a view.
 constexpr size_t kMaxLines = 40;
 constexpr size_t kMaxPairsPerLine = 3;
+
+// Score of the second best pose, relative to the best, above which neither is believed.
+constexpr double kMaxRival = 0.8;
 
 // A line of a frame that may be a line of the map, both measured in 3-D.
 struct LinePair {
@@ -84,8 +84,8 @@ std::vector<PointMatch> MatchPointDescriptors(const Frame& frame,
   for (size_t feature = 0; feature < frame.points.size(); ++feature) {
     if (frame.points[feature].dynamic || !frame.points[feature].HasDepth()) continue;
     const PointCandidate* best = nullptr;
-    int best_distance = kNoDistance;
-    int second_distance = kNoDistance;
+    int best_distance = kNoBits;
+    int second_distance = kNoBits;
     for (const PointCandidate& candidate : candidates) {
       const int distance = HammingDistance(candidate.descriptor, frame.points[feature].descriptor);
       if (distance < best_distance) {
@@ -96,7 +96,7 @@ std::vector<PointMatch> MatchPointDescriptors(const Frame& frame,
         second_distance = distance;
       }
     }
-    if (best == nullptr || best_distance > kMaxDistance) continue;
+    if (best == nullptr || best_distance > kMaxBits) continue;
     if (best_distance > kMaxRatio * second_distance) continue;
     matches.push_back({static_cast<int>(feature), best->id, best->position, true});
   }
@@ -113,7 +113,7 @@ std::vector<LinePair> MatchLineDescriptors(const Frame& frame,
     for (size_t i = 0; i < candidates.size(); ++i) {
       const int distance =
           HammingDistance(candidates[i].descriptor, frame.lines[feature].descriptor);
-      if (distance > kMaxDistance) continue;
+      if (distance > kMaxBits) continue;
       nearest.push_back({feature, static_cast<int>(i), frame.LineInCamera(feature),
                          candidates[i].segment, distance});
     }

@@ -19,8 +19,8 @@ namespace msc_vo {
 
 namespace {
 
-// In 1/30 s, and at least one per frame: bounds the cost.
-constexpr int kKeyframesToTry = 1;
+// Keyframes to try in 1/30 s, and at least one per frame: bounds the cost.
+constexpr int kKeyframesPerInterval = 1;
 
 // Shortest time between two frames that are found in another part of their own map, seconds, so
 // that their views differ. A pose in a saved map is waited for, a loop is not.
@@ -161,7 +161,7 @@ std::optional<Revisit> PlaceSearch::FindInInactiveMaps(const TrackedFrame& track
                                                        double seconds) {
   const InactiveMaps& maps = snapshot.inactive_maps;
   if (maps.empty()) return std::nullopt;
-  const int num = KeyframesToTry(kKeyframesToTry, seconds, NumKeyframes(maps));
+  const int num = KeyframesToTry(kKeyframesPerInterval, seconds, NumKeyframes(maps));
   const std::vector<Place> places = Rank(*tracked.frame);
   for (const KeyframeId id : order_.Select(SelectBy(places, snapshot.map, false), num)) {
     const Map& map = *FindMapOf(maps, id);

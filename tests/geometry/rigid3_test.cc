@@ -3,6 +3,8 @@
 
 #include "msc_vo/geometry/rigid3.h"
 
+#include <cmath>
+
 #include "tests/support/eigen_matchers.h"
 #include <gtest/gtest.h>
 

@@ -67,6 +67,7 @@ Scene MakeBare(uint64_t seed) {
   Random& random = builder.random();
   const double x = 2.6 + random.Uniform(-0.1, 0.2), y = 2.3 + random.Uniform(-0.1, 0.2);
   const Texture white = AddBlankHall({-x, -y, 0}, {x, y, 2.5}, &builder);
+  // Instead of those of the hall.
   builder.scene().lights = {{{0.9, -0.5, 2.2}, 0.85, 2.4}, {{-1.4, 0.3, 2.2}, 0.30, 2.4}};
 
   // Folds along the two long walls, facing the middle.

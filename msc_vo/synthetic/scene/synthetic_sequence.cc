@@ -118,7 +118,7 @@ bool SyntheticSequenceOptions::IsValid(std::string* error) const {
   } else if (!(depth_factor > 0.0)) {
     *error = "depth_factor must be positive";
   } else if (light && !(*light > 0.0 && *light <= 1.0)) {
-    *error = "photon noise: light must be more than 0 and at most 1";
+    *error = "light must be more than 0 and at most 1";
   } else if (!(accelerometer_sigma >= 0.0)) {
     *error = "accelerometer_sigma must not be negative";
   } else if (!(accelerometer_rate > 0.0)) {

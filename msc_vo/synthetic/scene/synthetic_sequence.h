@@ -53,10 +53,11 @@ struct SyntheticSequenceOptions {
   double readout_time = 0.0;
   /// Standard deviation of the image noise, grey values; about 2 for a Kinect indoors.
   double image_sigma = 2.0;
-  /// Fraction of the light of a well-lit scene, more than 0 and at most 1: AddPhotonNoise(), in
-  /// addition to image_sigma; none: no photon noise.
+  /// Fraction of the light of a well-lit scene, more than 0 and at most 1: its photon noise, whose
+  /// variance grows with the grey value, is added to that of image_sigma; none: no photon noise.
   std::optional<double> light;
-  bool hunting_exposure = false;  ///< ApplyHuntingExposure(), otherwise constant exposure
+  /// Exposure that changes periodically, with darker corners; otherwise it is constant.
+  bool hunting_exposure = false;
   /// Exposure time of the colour images as a fraction of the time between two images, 0 to 1.
   double motion_blur = 0.0;
   SyntheticDepth depth = SyntheticDepth::kExact;
