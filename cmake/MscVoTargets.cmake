@@ -12,7 +12,7 @@ function(msc_vo_compile_options target)
   endif()
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND MSC_VO_PRECOMPILE_HEADERS)
     # GCC spends a tenth of its time on collecting garbage, which saves a sixth of its memory: it begins at 1 GiB.
-    # Like precompiled headers, nothing for tools that read the commands with another compiler.
+    # Tools that read the commands with another compiler need a build without this and without precompiled headers.
     target_compile_options(${target} PRIVATE --param=ggc-min-heapsize=1048576)
   endif()
   # To the compiler, files that are compiled together are one file: it warns about local names that

@@ -16,6 +16,7 @@
 #include "msc_vo/logging/logger.h"
 #include "msc_vo/report/viewer_page.h"
 #include "msc_vo/results/report_frame.h"
+#include "msc_vo/text/ending.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
@@ -65,9 +66,7 @@ void AddViewArguments(CLI::App* command, ViewArguments* arguments) {
                    "Write a video of the images with their tracked features")
       ->type_name("FILE.mp4")
       ->check([](const std::string& file) -> std::string {
-        const std::string ending = ".mp4";
-        const bool is_mp4 = file.size() > ending.size() &&
-                            file.compare(file.size() - ending.size(), ending.size(), ending) == 0;
+        const bool is_mp4 = file != ".mp4" && HasEnding(file, ".mp4");
         return is_mp4 ? "" : "the name of the video must end with .mp4, not " + file;
       });
 }

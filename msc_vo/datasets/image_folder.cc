@@ -9,6 +9,7 @@
 #include <set>
 
 #include "msc_vo/datasets/image_name.h"
+#include "msc_vo/text/ending.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
@@ -48,11 +49,6 @@ bool StartsWith(const std::string& text, const std::string& prefix) {
   return text.rfind(prefix, 0) == 0;
 }
 
-bool EndsWith(const std::string& text, const std::string& suffix) {
-  return text.size() >= suffix.size() &&
-         text.compare(text.size() - suffix.size(), suffix.size(), suffix) == 0;
-}
-
 }  // namespace
 
 std::vector<std::string> ListImages(const std::string& folder, const std::string& prefix,
@@ -62,7 +58,7 @@ std::vector<std::string> ListImages(const std::string& folder, const std::string
   for (const std::string& path : ListFolder(folder)) {
     const std::string stem = fs::path(path).stem().string();
     if (stem.empty() || stem[0] == '.' || !HasImageExtension(path) || IsFolder(path)) continue;
-    if (StartsWith(stem, prefix) && EndsWith(stem, suffix)) paths.push_back(path);
+    if (StartsWith(stem, prefix) && HasEnding(stem, suffix)) paths.push_back(path);
   }
   RemoveJpegCopies(&paths);
   std::sort(paths.begin(), paths.end(), NaturalLess);

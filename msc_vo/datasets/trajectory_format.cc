@@ -13,6 +13,7 @@
 #include "msc_vo/datasets/pose_matrix.h"
 #include "msc_vo/datasets/pose_table.h"
 #include "msc_vo/datasets/stamp_precision.h"
+#include "msc_vo/text/ending.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
 
@@ -182,10 +183,6 @@ void CopyStamps(const TrajectoryFile& from, TrajectoryFile* to) {
 // Of comments above poses.
 constexpr char kNotEstimated[] = "not estimated";
 constexpr char kSegmentFormat[] = "segment %d, world %d";
-
-bool HasEnding(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
 
 }  // namespace
 

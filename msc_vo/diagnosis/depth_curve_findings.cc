@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
 #include <cstddef>
+#include <iterator>
 #include <string>
 
 #include "msc_vo/diagnosis/depth_curve.h"
@@ -33,6 +34,7 @@ constexpr CurveText kCurveTexts[] = {
     {"the distance from the camera (the length of the viewing ray)",
      "each value divided by sqrt(1 + x^2 + y^2), with x = (u - cx) / fx and y = (v - cy) / fy"},
 };
+static_assert(std::size(kCurveTexts) == static_cast<size_t>(DepthCurve::kRayLength) + 1);
 
 }  // namespace
 

@@ -95,7 +95,7 @@ class MotionTracker {
         MotionImage image;
         image.timestamp = frame.timestamp;
         image.depth_delay = rgbd.depth_delay;
-        image.edges = AlignEdges(rgbd.gray, rgbd.depth, false);
+        image.edges = AlignEdges(rgbd.gray, rgbd.depth, /*with_fine=*/false);
         const auto last = images.find(frame.id - 1);
         if (last != images.end()) {
           MeasureFlow(before, now, frame.timestamp - last->second.timestamp, &image);

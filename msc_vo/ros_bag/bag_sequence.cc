@@ -17,6 +17,7 @@
 #include "msc_vo/ros_bag/bag_stamps.h"
 #include "msc_vo/ros_bag/realsense_camera.h"
 #include "msc_vo/ros_bag/topic_choice.h"
+#include "msc_vo/text/ending.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
@@ -230,8 +231,7 @@ std::string RecorderOf(const BagFile& bag) {
   for (const BagTopic& topic : bag.topics()) {
     if (topic.name.rfind("/device_0/sensor_", 0) == 0) return "RealSense viewer";
   }
-  const std::string path = Lowercase(bag.path());
-  const bool is_ros1 = path.size() > 4 && path.compare(path.size() - 4, 4, ".bag") == 0;
+  const bool is_ros1 = HasEnding(Lowercase(bag.path()), ".bag");
   return is_ros1 ? "rosbag record, ROS 1" : "ros2 bag record, ROS 2";
 }
 

@@ -9,6 +9,8 @@
 #include <tuple>
 #include <utility>
 
+#include "msc_vo/text/ending.h"
+
 namespace msc_vo {
 
 namespace {
@@ -127,8 +129,7 @@ bool IsRectified(const ImageTopic& topic) {
 std::string CameraInfoTopicOf(const std::string& image_topic) {
   std::string topic = image_topic;
   const auto remove_ending = [&topic](const std::string& ending) {
-    const bool ends = topic.size() > ending.size() &&
-                      topic.compare(topic.size() - ending.size(), ending.size(), ending) == 0;
+    const bool ends = topic != ending && HasEnding(topic, ending);
     if (ends) topic.erase(topic.size() - ending.size());
     return ends;
   };

@@ -11,9 +11,10 @@
 namespace msc_vo {
 
 void AddPhotonNoise(double light, uint64_t seed, uint64_t frame, RenderedImage* image) {
-  constexpr double kReadSigma = 1.2;  // grey values, before the gain
+  constexpr double kPhotonsPerLevel = 4.0;  // detected per grey value in full light
+  constexpr double kReadSigma = 1.2;        // grey values, before the gain
   Random random(seed, frame);
-  const double photons_per_level = light * 4.0;
+  const double photons_per_level = light * kPhotonsPerLevel;
   for (uint8_t& value : image->rgb) {
     if (value == 255) continue;
     const double photons = random.Poisson(photons_per_level * value);
