@@ -31,11 +31,12 @@ constexpr double kMaxSlope = 5.0;
 // supports the curve that it is nearer to than this ratio of their difference.
 constexpr double kMinSigmas = 4.0;
 constexpr double kTolerance = 0.25;
-// Fewest supporting patches in excess of those by chance, and fewest places of the image that they
-// are at; and ratio to the others: surfaces that are not plane support two curves about equally. Of
-// sequences that are described right, at most 0.4 times as many patches support another curve as
-// depth, see docs/lab/depth_curve.md.
+// Fewest patches in excess of those by chance that support a curve, and fewest places in the image
+// where such patches are.
 constexpr int kMinVotes = 10;
+// Ratio of these patches to those that support the other curve: surfaces that are not plane support
+// both about equally. Of sequences that are described right, at most 0.4 times as many patches
+// support another curve as depth, see docs/lab/depth_curve.md.
 constexpr int kMinRatio = 2;
 // A curve with a parameter must gain so much over inverse depth, which has none.
 constexpr double kMinGain = 1.2;

@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "msc_vo/checkpoint/checksum.h"
+#include "msc_vo/results/internal/json_value.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
@@ -22,7 +23,6 @@ namespace msc_vo {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 // Name and size of a file; its folder may have been moved.
 std::string NameAndSize(const std::string& path) {
@@ -99,8 +99,7 @@ SequenceIdentity IdentifySequence(const SequenceIndex& index) {
 void WriteIdentity(const std::string& directory, const SequenceIdentity& sequence) {
   const Json json = {
       {"path", sequence.path}, {"stamps", sequence.stamps}, {"images", sequence.images}};
-  WriteFile(ResultFile(directory, "sequence.json"),
-            json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  WriteFile(ResultFile(directory, "sequence.json"), FormatJson(json));
 }
 
 void RefuseToOverwriteOthers(const std::string& directory, const SequenceIdentity& sequence) {

@@ -266,8 +266,9 @@ class TableReader {
     for (size_t& i = num_used_.Of<L>();
          i < observations.size() && observations[i].landmark == landmark.id; ++i) {
       const KeyframeId keyframe = observations[i].keyframe;
-      if (submap->map.FindKeyframe(keyframe) == nullptr)
+      if (submap->map.FindKeyframe(keyframe) == nullptr) {
         row->Fail("a keyframe is in another submap");
+      }
       if (FindObservation(landmark, keyframe) != nullptr)
         row->Fail("two features observe it at once");
       landmark.observations.push_back({keyframe, observations[i].feature});
