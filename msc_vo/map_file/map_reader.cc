@@ -50,8 +50,7 @@ void CheckMap(const std::string& path) {
   ReadFrom(path, [&](const SqliteDatabase& database) {
     SqliteStatement check = database.Prepare("PRAGMA integrity_check(1)");
     if (check.Step() && check.Bytes(0) != "ok") {
-      throw std::runtime_error(path + ": is damaged (" + std::string(check.Bytes(0)) +
-                               "); restore a copy, or record the map again");
+      RefuseDamaged(path, std::string(check.Bytes(0)));
     }
     CalibrationRows calibrations;
     return ReadTables(database, &calibrations);

@@ -4,9 +4,14 @@
 #include "msc_vo/map_file/internal/blob.h"
 
 #include <limits>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 
+#include "msc_vo/bundle_adjustment/validation.h"
+#include "msc_vo/map_file/internal/feature_blob.h"
 namespace msc_vo {
 namespace {
 
@@ -64,6 +69,41 @@ TEST(BlobTest, RefusesBytesThatAreNotNumbers) {
   EXPECT_THROW(BlobReader(std::string("\x00\x7e", 2)).F16(), BlobError);          // NaN
   EXPECT_THROW(BlobReader(std::string(10, '\xff')).Varint(), BlobError);
   EXPECT_THROW(BlobReader("\x80").Varint(), BlobError);
+}
+
+std::string EncodedLine(double correlation) {
+  auto frame = std::make_shared<Frame>();
+  LineFeature line;
+  line.segment = {{100.0, 100.0}, {200.0, 150.0}};
+  line.depth = LineDepth();
+  line.depth->start = line.depth->end = 0.5;
+  line.depth->covariance << 1e-4, correlation * 2e-5, correlation * 2e-5, 4e-6;
+  frame->lines = {line};
+  Keyframe keyframe;
+  keyframe.frame = frame;
+  keyframe.landmarks.Of<LineLandmark>() = {LandmarkId{0}};
+  return EncodeFeatures(keyframe).features.Of<LineLandmark>();
+}
+
+bool HasRegularCovariance(const std::string& bytes) {
+  std::vector<LineFeature> lines;
+  DecodeFeatures(bytes, &lines);
+  return CovarianceError(lines.at(0).depth->covariance) == nullptr;
+}
+
+// Bundle adjustment refuses covariances that are singular.
+TEST(FeatureBlob, KeepsCovariancesOfLinesRegular) {
+  for (const double correlation : {-0.999999, 0.5, 0.999999}) {
+    EXPECT_TRUE(HasRegularCovariance(EncodedLine(correlation))) << correlation;
+  }
+}
+
+TEST(FeatureBlob, MendsSingularCovariancesOfOlderMaps) {
+  std::string bytes = EncodedLine(0.999999);
+  const std::string limit("\xfe\x7f", 2), one("\xff\x7f", 2);
+  const size_t at = bytes.find(limit);
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_TRUE(HasRegularCovariance(bytes.replace(at, one.size(), one)));
 }
 
 }  // namespace

@@ -20,6 +20,9 @@ constexpr int kLevels = kLevelBits + 1;
 constexpr uint8_t kHasDepth = 0x01;
 constexpr double kTurn = 256.0;  // units of an angle in the image
 constexpr double kCorrelationUnits = 32767.0;
+// Largest correlation, in its units: a covariance must not become singular by rounding. Maps of
+// versions before this limit have larger ones.
+constexpr double kMaxCorrelation = kCorrelationUnits - 1.0;
 // Smallest positive number of 16 bits: a sigma must not become zero.
 constexpr double kSmallest = 6e-8;
 
@@ -45,6 +48,10 @@ void Put(const PointFeature& point, BlobWriter* blob) {
   blob->Bytes(point.descriptor);
 }
 
+int16_t LimitCorrelation(double units) {
+  return static_cast<int16_t>(std::clamp(units, -kMaxCorrelation, kMaxCorrelation));
+}
+
 void Put(const LineDepth& depth, BlobWriter* blob) {
   const Eigen::Vector2d sigma = depth.covariance.diagonal().cwiseSqrt();
   const double product = sigma.prod();
@@ -53,8 +60,7 @@ void Put(const LineDepth& depth, BlobWriter* blob) {
   blob->F32(depth.end);
   PutSigma(sigma.x(), blob);
   PutSigma(sigma.y(), blob);
-  blob->U16(
-      static_cast<uint16_t>(std::lround(std::clamp(correlation, -1.0, 1.0) * kCorrelationUnits)));
+  blob->U16(static_cast<uint16_t>(LimitCorrelation(std::round(correlation * kCorrelationUnits))));
   blob->U16(static_cast<uint16_t>(std::clamp(depth.num_inliers, 0, 0xffff)));
   blob->F16(depth.inlier_ratio);
 }
@@ -103,8 +109,9 @@ LineDepth GetLineDepth(BlobReader* blob) {
   Require(depth.start > 0.0 && depth.end > 0.0, "a depth of a line that is not positive");
   const double start = GetSigma(blob);
   const double end = GetSigma(blob);
-  const double correlation = static_cast<int16_t>(blob->U16()) / kCorrelationUnits;
-  Require(std::abs(correlation) <= 1.0, "a correlation beyond one");
+  const auto units = static_cast<int16_t>(blob->U16());
+  Require(std::abs(units) <= kCorrelationUnits, "a correlation beyond one");
+  const double correlation = LimitCorrelation(units) / kCorrelationUnits;
   const double covariance = correlation * start * end;
   depth.covariance << start * start, covariance, covariance, end * end;
   depth.num_inliers = blob->U16();

@@ -138,20 +138,19 @@ void CheckSchema(const SqliteDatabase& database) {
                        "reads up to version " + std::to_string(kMapFileVersion) +
                        "; use a newer msc_vo");
   }
-  constexpr char kFix[] = "); restore a copy, or record the map again";
-  if (version < 1) Fail(database, "is damaged (its version is not valid" + std::string(kFix));
+  if (version < 1) RefuseDamaged(database.path(), "its version is not valid");
   int64_t num_tables = 0;
   for (const Table& table : kTables) {
     if (!IsOf(table, version)) continue;
     SqliteStatement find = database.Prepare("SELECT sql FROM sqlite_master WHERE name = ?");
     find.BindText(0, table.name);
     if (!find.Step() || find.Bytes(0) != table.sql) {
-      Fail(database, std::string("is damaged (its table ") + table.name + " is not valid" + kFix);
+      RefuseDamaged(database.path(), std::string("its table ") + table.name + " is not valid");
     }
     ++num_tables;
   }
   if (NumObjects(database) != num_tables) {
-    Fail(database, "is damaged (it contains what is no part of a map" + std::string(kFix));
+    RefuseDamaged(database.path(), "it contains what is no part of a map");
   }
 }
 

@@ -138,9 +138,8 @@ void RowReader::Finish() {
 }
 
 void RowReader::Fail(const std::string& problem) const {
-  throw std::runtime_error(path_ + ": is damaged (table " + table_ + ", row " +
-                           std::to_string(statement_.Integer(0)) + ": " + problem +
-                           "); restore a copy, or record the map again");
+  RefuseDamaged(path_, std::string("table ") + table_ + ", row " +
+                           std::to_string(statement_.Integer(0)) + ": " + problem);
 }
 
 }  // namespace msc_vo

@@ -33,19 +33,22 @@ std::string Describe(sqlite3* database, int result) {
              "file";
     case SQLITE_NOTADB:
       return "is no map of msc_vo (" + text + "); choose another file";
-    case SQLITE_CORRUPT:
-    case SQLITE_TOOBIG:
-    case SQLITE_ERROR:
-    case SQLITE_SCHEMA:
-      return "is damaged (" + text + "); restore a copy, or record the map again";
     default:
       return "cannot be used as a map (" + text +
              "); check the file, its folder and its permissions";
   }
 }
 
+std::string JournalOf(const std::string& path) { return path + "-journal"; }
+
 // `cause`: errno of the call that has failed, if it is known.
 [[noreturn]] void Fail(sqlite3* database, const std::string& path, int result, int cause = 0) {
+  const bool is_of_journal = result == SQLITE_READONLY_ROLLBACK || result == SQLITE_IOERR_DELETE;
+  if (is_of_journal && HasEntry(JournalOf(path))) {
+    throw std::runtime_error(path + ": cannot be restored from " + JournalOf(path) +
+                             ", which a run that was killed has left, without permission to write "
+                             "both; copy both into a folder of your own");
+  }
   switch (result) {
     case SQLITE_IOERR_WRITE:
     case SQLITE_IOERR_FSYNC:
@@ -57,6 +60,11 @@ std::string Describe(sqlite3* database, int result) {
       break;
   }
   switch (result & 0xff) {
+    case SQLITE_CORRUPT:
+    case SQLITE_TOOBIG:
+    case SQLITE_ERROR:
+    case SQLITE_SCHEMA:
+      RefuseDamaged(path, sqlite3_errmsg(database));
     case SQLITE_FULL:
       throw WriteError(path, ENOSPC);
     case SQLITE_READONLY:
@@ -108,8 +116,7 @@ void RefuseOtherFiles(const std::string& path) {
     throw std::runtime_error(path + ": is no map of msc_vo; choose another file");
   }
   if (header.size() < kSmallestPage) {
-    throw std::runtime_error(path +
-                             ": is damaged (truncated); restore a copy, or record the map again");
+    RefuseDamaged(path, "truncated");
   }
 }
 
@@ -186,6 +193,12 @@ std::string_view SqliteStatement::Bytes(int column) const {
   const int size = sqlite3_column_bytes(statement_.get(), column);
   return data == nullptr ? std::string_view()
                          : std::string_view(static_cast<const char*>(data), size);
+}
+
+void RefuseDamaged(const std::string& path, const std::string& problem) {
+  const std::string journal = JournalOf(std::filesystem::path(path).filename().string());
+  throw std::runtime_error(path + ": is damaged (" + problem + "); restore a copy, without " +
+                           journal + " of before, or record the map again");
 }
 
 void SqliteDatabase::Close::operator()(sqlite3* database) const { sqlite3_close(database); }

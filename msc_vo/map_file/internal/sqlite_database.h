@@ -13,6 +13,9 @@ struct sqlite3_stmt;
 
 namespace msc_vo {
 
+/// Throws std::runtime_error that names a file which is damaged, the problem and the fix.
+[[noreturn]] void RefuseDamaged(const std::string& path, const std::string& problem);
+
 /// A statement of SQL that is executed once or several times. Columns and parameters count from 0.
 /// All functions throw as SqliteDatabase does. The database must outlive it.
 class SqliteStatement {

@@ -87,8 +87,7 @@ class TableReader {
 
  private:
   [[noreturn]] void Fail(const std::string& problem) const {
-    throw std::runtime_error(database_.path() + ": is damaged (" + problem +
-                             "); restore a copy, or record the map again");
+    RefuseDamaged(database_.path(), problem);
   }
 
   SavedSubMap* FindSubMap(int64_t id) {
@@ -260,6 +259,7 @@ class TableReader {
     landmark.num_visible = static_cast<int>(num_visible);
     landmark.num_found = static_cast<int>(num_found);
     landmark.noise = row->Real();
+    if (!(landmark.noise > 0.0)) row->Fail("its noise is not positive");
     landmark.has_false_depth = false_depths_.erase(landmark.id) > 0;
     row->Finish();
     const std::vector<NamedObservation>& observations = observations_.Of<L>();
