@@ -27,6 +27,8 @@ void CheckOptions(const CLI::App& command, const RunExport& arguments) {
   refuse_unless("--binary", arguments.format == "colmap");
   refuse_unless("--images", arguments.format == "mcap");
   refuse_unless("--map", arguments.format == "mcap");
+  const bool names_images = arguments.format == "colmap" && !arguments.sequence.directory.empty();
+  refuse_unless("--session", names_images || !arguments.map.empty());
   const std::string problem = CheckPlyFileName(arguments.output);
   if (arguments.format == "ply" && !problem.empty()) throw UsageError("output: " + problem);
   for (const char* option : {"--voxel", "--max-depth", "--min-observations", "--max-memory"}) {
@@ -76,6 +78,12 @@ Command AddExportCommand(CLI::App* app) {
                    "For mcap: map of the run (replay --map), whose features are drawn into images "
                    "of the keyframes")
       ->type_name("FILE");
+  command
+      ->add_option(
+          "--session", arguments->session,
+          "For mcap with --map and colmap with --sequence: name of the session of the map, "
+          "as map info prints it; default: found by the sequence")
+      ->type_name("NAME");
   AddFusionArguments(command, &arguments->fusion);
   command->footer(HelpFooter("msc_vo export out/my_sequence nerfstudio transforms.json"));
   return {command, [arguments, command] { return Export(*command, *arguments); }};

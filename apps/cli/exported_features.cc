@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "apps/cli/overlay_video.h"
-#include "apps/cli/run_map.h"
 #include "msc_vo/exports/recorded_run.h"
 #include "msc_vo/image_files/opencv_codecs.h"
 #include "msc_vo/map_file/map_reader.h"
@@ -15,14 +14,13 @@
 
 namespace msc_vo {
 
-ExportedFeatures::ExportedFeatures(const std::string& map_file, const std::string& sequence,
-                                   RgbdDecoder images)
-    : images_(std::move(images)), contents_(LoadMap(map_file)) {
+ExportedFeatures::ExportedFeatures(const SessionQuery& run, RgbdDecoder images)
+    : images_(std::move(images)), contents_(LoadMap(run.map_file)) {
   std::map<int64_t, int> stamps;
   for (int i = 0; i < images_.size(); ++i) {
     stamps[Microseconds(images_.index().entries[static_cast<size_t>(i)].timestamp)] = i;
   }
-  const KeyframeRange session = FindSession(contents_.sessions, sequence);
+  const KeyframeRange session = FindSession(run, contents_, images_);
   for (const SavedSubMap& submap : contents_.submaps) {
     for (const auto& [id, keyframe] : submap.map.keyframes()) {
       const auto image = stamps.find(Microseconds(keyframe.frame->timestamp));
@@ -31,8 +29,8 @@ ExportedFeatures::ExportedFeatures(const std::string& map_file, const std::strin
     }
   }
   if (!keyframes_.empty()) return;
-  throw std::runtime_error(map_file + ": has no keyframe of " + sequence +
-                           "; give the map that the run was saved to (replay --map)");
+  throw std::runtime_error(run.map_file + ": has no keyframe at the time of an image of " +
+                           images_.index().directory + "; " + run.fix);
 }
 
 std::string ExportedFeatures::Draw(int64_t microseconds) const {

@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 
+#include "apps/cli/recorded_session.h"
 #include "msc_vo/datasets/rgbd_decoder.h"
 #include "msc_vo/map/map_contents.h"
 
@@ -15,11 +16,10 @@ namespace msc_vo {
 /// Draws the features that the keyframes of a run observe landmarks with.
 class ExportedFeatures {
  public:
-  /// `map_file`: the map that the run of `sequence` (its path when it was run) was saved to. Of
-  /// several sessions with the sequence, the newest is taken. `images`: the sequence, possibly in
-  /// another place. Throws std::runtime_error, naming the files and the fix, if the map has no
-  /// keyframe of the sequence.
-  ExportedFeatures(const std::string& map_file, const std::string& sequence, RgbdDecoder images);
+  /// `run`: its session in the map that it was saved to, see FindSession(). `images`: the sequence,
+  /// possibly in another place. Throws std::runtime_error, naming the files and the fix, if the map
+  /// has no keyframe of the sequence.
+  ExportedFeatures(const SessionQuery& run, RgbdDecoder images);
 
   /// Returns a JPEG file of the image at this time with its features; empty if it is no keyframe.
   /// Throws UnreadableImage.

@@ -16,8 +16,10 @@
 #include "apps/cli/command_log.h"
 #include "apps/cli/exported_images.h"
 #include "apps/cli/output_file.h"
+#include "apps/cli/recorded_session.h"
 #include "apps/cli/run_map.h"
 #include "msc_vo/exports/colmap_model.h"
+#include "msc_vo/exports/exported_camera.h"
 #include "msc_vo/exports/map_export.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
@@ -43,11 +45,15 @@ SavedSubMap LargestSubMap(const std::string& file, MapContents* contents) {
   return std::move(*largest);
 }
 
-// Leaves the keyframes of the newest session with the sequence: time stamps of others do not
-// identify its images.
-void KeepSession(const RunExport& arguments, MapContents* contents) {
-  if (arguments.sequence.directory.empty() || contents->sessions.size() == 1) return;
-  const KeyframeRange session = FindSession(contents->sessions, arguments.sequence.directory);
+// Leaves the keyframes of the session with these images: time stamps of others do not identify
+// them.
+void KeepSession(const RunExport& arguments, const RgbdDecoder& images, MapContents* contents) {
+  const KeyframeRange session =
+      FindSession({arguments.map, arguments.sequence.directory, arguments.session, false,
+                   "give the sequence of one of them, name its session with --session, or leave "
+                   "out --sequence: "
+                   "the images of all sessions are then named by numbers"},
+                  *contents, images);
   std::vector<SavedSubMap> kept;
   for (SavedSubMap& submap : contents->submaps) {
     std::vector<KeyframeId> others;
@@ -64,40 +70,57 @@ void KeepSession(const RunExport& arguments, MapContents* contents) {
     kept.push_back(std::move(submap));
   }
   contents->submaps = std::move(kept);
-  if (!contents->submaps.empty()) return;
-  throw std::runtime_error(arguments.map + ": has no keyframe of " + arguments.sequence.directory +
-                           "; without --sequence, the images of all sessions are named by numbers");
 }
 
-// Names the image of a keyframe by the sequence, if that is given, or else by its number.
-std::function<std::string(const Keyframe&)> ImageNames(const RunExport& arguments) {
-  if (arguments.sequence.directory.empty()) {
-    return [](const Keyframe& keyframe) {
-      return FormatText("keyframe_%06lld.png", static_cast<long long>(keyframe.id));
-    };
+// Throws std::runtime_error if the images of a sequence have another size than those that the
+// keyframe was recorded with. Keyframes of earlier sessions are expressed in the camera of the
+// last.
+void CheckImageSize(const Keyframe& keyframe, const RgbdDecoder& decoder) {
+  const Frame& frame = *keyframe.frame;
+  const ExportedCamera recorded =
+      ExportCamera(frame.intrinsics ? *frame.intrinsics : CameraIntrinsics{frame.camera, {}});
+  const Calibration& calibration = decoder.calibration();
+  const ExportedCamera camera = ExportCamera({calibration.camera, calibration.distortion});
+  if (recorded.width == camera.width && recorded.height == camera.height) return;
+  throw std::runtime_error(
+      FormatText("%s: its images have %d x %d pixels, and that of the keyframe at %.6f s has %d x "
+                 "%d; give the "
+                 "sequence of the map, or none: images are then named by numbers",
+                 decoder.index().directory.c_str(), camera.width, camera.height, frame.timestamp,
+                 recorded.width, recorded.height));
+}
+
+std::string NameByNumber(const Keyframe& keyframe) {
+  return FormatText("keyframe_%06lld.png", static_cast<long long>(keyframe.id));
+}
+
+// Names the image of a keyframe by the sequence.
+std::string NameInSequence(const RgbdDecoder& decoder, const Keyframe& keyframe) {
+  const std::vector<SequenceEntry>& entries = decoder.index().entries;
+  const auto delay = [&](const SequenceEntry& entry) {
+    return std::abs(entry.timestamp - keyframe.frame->timestamp);
+  };
+  const auto nearest = std::min_element(
+      entries.begin(), entries.end(),
+      [&](const SequenceEntry& a, const SequenceEntry& b) { return delay(a) < delay(b); });
+  if (delay(*nearest) > kMaxPoseDelay) {
+    throw std::runtime_error(FormatText(
+        "%s: has no image of the keyframe at %.6f s; give the sequence of the map, or none: "
+        "images are then named by numbers",
+        decoder.index().directory.c_str(), keyframe.frame->timestamp));
   }
+  CheckImageSize(keyframe, decoder);
+  return ColmapImageName(decoder.index(), *nearest);
+}
+
+// The function that names the images of keyframes. With a sequence, leaves its keyframes only.
+std::function<std::string(const Keyframe&)> ImageNames(const RunExport& arguments,
+                                                       MapContents* contents) {
+  if (arguments.sequence.directory.empty()) return NameByNumber;
   const auto decoder = std::make_shared<const RgbdDecoder>(OpenExportedSequence(arguments));
   RequireImageFiles(*decoder);
-  return [decoder](const Keyframe& keyframe) {
-    const std::string& directory = decoder->index().directory;
-    const std::vector<SequenceEntry>& entries = decoder->index().entries;
-    const auto delay = [&](const SequenceEntry& entry) {
-      return std::abs(entry.timestamp - keyframe.frame->timestamp);
-    };
-    const auto nearest = std::min_element(
-        entries.begin(), entries.end(),
-        [&](const SequenceEntry& a, const SequenceEntry& b) { return delay(a) < delay(b); });
-    if (delay(*nearest) > kMaxPoseDelay) {
-      throw std::runtime_error(FormatText(
-          "%s: has no image of the keyframe at %.6f s; give the sequence of the map, or none: "
-          "images are then named by numbers",
-          directory.c_str(), keyframe.frame->timestamp));
-    }
-    if (keyframe.frame->camera.width != decoder->calibration().camera.width) {
-      throw std::runtime_error(directory + ": its images have another size than those of the map");
-    }
-    return ColmapImageName(decoder->index(), *nearest);
-  };
+  KeepSession(arguments, *decoder, contents);
+  return [decoder](const Keyframe& keyframe) { return NameInSequence(*decoder, keyframe); };
 }
 
 // Throws std::runtime_error if one file of an export may not be replaced. `mark`: see HasMark();
@@ -135,13 +158,12 @@ void WriteMapExport(const RunExport& arguments) {
   }
   CheckMapExport(arguments);
   MapContents contents = LoadKeyframes(arguments.map);
-  if (arguments.format == "colmap") KeepSession(arguments, &contents);
-  const SavedSubMap submap = LargestSubMap(arguments.map, &contents);
   if (arguments.format == "g2o") {
-    WriteFile(arguments.output, FormatG2o(submap, contents.loops));
-    return;
+    const SavedSubMap submap = LargestSubMap(arguments.map, &contents);
+    return WriteFile(arguments.output, FormatG2o(submap, contents.loops));
   }
-  const ColmapModel model = MakeColmapModel(submap.map, ImageNames(arguments));
+  const auto names = ImageNames(arguments, &contents);
+  const ColmapModel model = MakeColmapModel(LargestSubMap(arguments.map, &contents).map, names);
   const std::vector<ModelFile> files =
       arguments.binary ? FormatColmapBinary(model) : FormatColmapText(model);
   MakeFolder(arguments.output);

@@ -257,7 +257,7 @@ int Run(const ReplayArguments& arguments, Configuration configuration, Resumed* 
   const RunIdentity identity = Identify(arguments, configuration, decoder, resumed);
   MakeFolder(output);
   CheckWritable((std::filesystem::path(output) / "trajectory.txt").string());
-  *exports = PlanExports(arguments, decoder, output);
+  *exports = PlanExports(arguments, decoder, output, identity.session);
   const std::unique_ptr<GravityFactors> gravity =
       MakeGravityFactors(arguments.gravity, decoder.index());
   const InterruptGuard interrupt;

@@ -63,12 +63,13 @@ std::string CheckExportText(const std::string& text) {
 }
 
 std::vector<RunExport> PlanExports(const ReplayArguments& arguments, const RgbdDecoder& sequence,
-                                   const std::string& output) {
+                                   const std::string& output, const std::string& session) {
   std::vector<RunExport> exports;
   for (const std::string& text : arguments.exports) {
     RunExport one;
     one.run = output;
     one.map = arguments.map.map;
+    one.session = session;
     one.format = FormatOf(text);
     one.output = text.substr(text.find('=') + 1);
     const SequenceIndex& index = sequence.index();

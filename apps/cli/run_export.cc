@@ -109,10 +109,13 @@ void AddFeatures(const RunExport& arguments, int* num_unreadable, McapRun* run) 
   if (arguments.map.empty()) return;
   RgbdDecoder images = OpenExportedSequence(arguments);
   const auto identity = ReadIdentity(arguments.run);  // the sequence may have moved since
-  const std::string sequence = identity ? identity->path : images.index().directory;
+  const SessionQuery session = {
+      arguments.map, identity ? identity->path : images.index().directory, arguments.session, true,
+      "give the map that the run was saved to (replay --map), or name one of its sessions with "
+      "--session"};
   std::shared_ptr<const ExportedFeatures> features;
   try {
-    features = std::make_shared<const ExportedFeatures>(arguments.map, sequence, std::move(images));
+    features = std::make_shared<const ExportedFeatures>(session, std::move(images));
   } catch (const std::runtime_error& error) {
     if (arguments.requires_features) throw;
     PrintWarning(arguments.output + ": images with features are left out: " + error.what());

@@ -20,6 +20,7 @@ struct RunExport {
   std::string map;             ///< map file of the run; for mcap it may be empty
   std::string format;          ///< one of ExportFormats()
   std::string output;          ///< file; for colmap a folder
+  std::string session;         ///< mcap, colmap: name of the session of the map; may be empty
   SequenceArguments sequence;  ///< its directory is that of the results if empty
   ConfigurationArguments configuration;
   PoseSelection poses;

@@ -7,13 +7,11 @@
 #include <chrono>
 #include <ctime>
 #include <exception>
-#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "apps/cli/command_log.h"
-#include "apps/cli/sequence_arguments.h"
 #include "msc_vo/logging/logger.h"
 #include "msc_vo/map_file/map_images.h"
 #include "msc_vo/map_file/map_reader.h"
@@ -103,16 +101,6 @@ MapContents LoadKeyframes(const std::string& path) {
     throw std::runtime_error(path + ": has no keyframes; build a map with msc_vo replay --map");
   }
   return contents;
-}
-
-KeyframeRange FindSession(const std::vector<MapSession>& sessions, const std::string& sequence) {
-  KeyframeId end = std::numeric_limits<KeyframeId>::max();
-  for (auto session = sessions.rbegin(); session != sessions.rend(); ++session) {
-    const std::string name = session->name.substr(0, session->name.rfind(", "));
-    if (name == SequenceName(sequence)) return {session->first_keyframe, end};
-    end = session->first_keyframe;
-  }
-  return {};
 }
 
 RunMap::RunMap(const MapArguments& arguments, const std::string& session, double interval,

@@ -40,16 +40,6 @@ std::string NewSessionName(const std::string& sequence);
 /// none.
 MapContents LoadKeyframes(const std::string& path);
 
-/// The keyframes `first`, ..., `end` - 1.
-struct KeyframeRange {
-  KeyframeId first = 0, end = 0;
-  bool Contains(KeyframeId id) const { return first <= id && id < end; }
-};
-
-/// The keyframes of the newest session whose name is NewSessionName() of the sequence with this
-/// path; none: there is no such session.
-KeyframeRange FindSession(const std::vector<MapSession>& sessions, const std::string& sequence);
-
 /// The map of earlier sessions that a run begins with, and the file that it is saved to while the
 /// run is in progress. The clock decides when it is saved, and affects nothing else.
 class RunMap {
