@@ -14,6 +14,7 @@
 #include "apps/cli/command_log.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/evaluation_output.h"
+#include "apps/cli/map_mark.h"
 #include "apps/cli/usage_error.h"
 #include "msc_vo/datasets/trajectory_format.h"
 #include "msc_vo/evaluation/line_error.h"
@@ -58,6 +59,9 @@ Trajectories ReadTrajectories(const EvaluateArguments& arguments) {
   if (!arguments.formats.empty()) {
     truth_format = TrajectoryFormatFromName(arguments.formats.front());
     estimate_format = TrajectoryFormatFromName(arguments.formats.back());
+  }
+  for (const std::string& path : {arguments.truth, arguments.estimate}) {
+    RefuseMapFile(path, kNoTrajectory);
   }
   Trajectories trajectories{ReadTrajectoryFile(arguments.truth, truth_format),
                             ReadTrajectoryFile(arguments.estimate, estimate_format)};

@@ -13,6 +13,7 @@
 #include "apps/cli/configuration_arguments.h"
 #include "apps/cli/depth_fusion.h"
 #include "apps/cli/input_check.h"
+#include "apps/cli/map_mark.h"
 #include "apps/cli/modules.h"
 #include "apps/cli/output_file.h"
 #include "apps/cli/posed_images.h"
@@ -68,6 +69,7 @@ void PrintResult(const FuseArguments& arguments, const ColoredMesh& mesh, int nu
 }
 
 int Run(const FuseArguments& arguments) {
+  RefuseMapFile(arguments.trajectory, kNoTrajectory);
   const Configuration configuration = MakeConfiguration(arguments.configuration);
   const RgbdDecoder decoder = OpenDecoder(arguments.sequence, configuration);
   PrintWarnings(decoder.Warnings());

@@ -14,6 +14,7 @@
 #include "apps/cli/exported_images.h"
 #include "apps/cli/exported_map.h"
 #include "apps/cli/interrupt_guard.h"
+#include "apps/cli/map_mark.h"
 #include "apps/cli/modules.h"
 #include "apps/cli/output_file.h"
 #include "msc_vo/datasets/trajectory.h"
@@ -241,6 +242,10 @@ void CheckExport(const RunExport& arguments, const RgbdDecoder& sequence) {
 
 void WriteExport(const RunExport& arguments) {
   if (IsMapFormat(arguments.format)) return WriteMapExport(arguments);
+  RefuseMapFile(arguments.run,
+                arguments.format +
+                    " is made of the results of a run: give their folder; of a map, "
+                    "msc_vo map export writes keyframes (TUM), points and lines (PLY)");
   std::vector<std::string> inputs = {TrajectoryPath(arguments.run)};
   for (const char* name :
        {"frames.csv", "lines.ply", "map.ply", "planes.ply", "sequence.json", "summary.json"}) {

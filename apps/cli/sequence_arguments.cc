@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/cli/map_mark.h"
 #include "apps/cli/modules.h"
 #include "apps/cli/usage_error.h"
 #include "msc_vo/datasets/camera_preset.h"
@@ -34,6 +35,7 @@ bool IsOni(const std::string& path) {
 
 SequenceIndex OpenSource(const SequenceArguments& arguments) {
   const std::string& source = arguments.directory;
+  RefuseMapFile(source, "give a sequence; replay takes a map with --map or --localize");
   const bool is_bag = IsBag(source);
   if (!is_bag && (!arguments.topics.color.empty() || !arguments.topics.depth.empty())) {
     throw UsageError(source +

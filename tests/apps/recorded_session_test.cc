@@ -125,5 +125,23 @@ TEST_F(RecordedSessionTest, HasTheImageSizeOfItsOwnCamera) {
               LineNames("error:", Path("d/seq"), "200", "150", "160", "120"));
 }
 
+// A map where the results of a run are expected.
+TEST_F(RecordedSessionTest, CommandsSayThatAMapIsNoTrajectory) {
+  const std::string map = Path("two.map"), sequence = Path("a/seq");
+  for (const char* format : {"tum", "mcap", "nerfstudio"}) {
+    EXPECT_THAT(Run({"export", map, format, Path("x")}, 1),
+                LineNames("error:", map, "map export", format));
+  }
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"evaluate", map, sequence + "/groundtruth.txt"},
+                                             {"evaluate", sequence + "/groundtruth.txt", map},
+                                             {"fuse", sequence, map, "--output", Path("x.ply")}}) {
+    EXPECT_THAT(Run(arguments, 1), LineNames("error:", map, "map export", "trajectory"));
+  }
+  for (const char* command : {"replay", "check"}) {
+    EXPECT_THAT(Run({command, map}, 1), LineNames("error:", map, "--localize"));
+  }
+}
+
 }  // namespace
 }  // namespace msc_vo
