@@ -17,8 +17,8 @@ std::string ColmapImageName(const SequenceIndex& index, const SequenceEntry& ent
 inline constexpr char kG2oMark[] = "VERTEX_SE3:QUAT";
 
 /// Throws std::runtime_error if an export of a map would replace the map or a file that is no
-/// earlier export. Files of the binary form of colmap, which have no mark, are refused in the
-/// folder of the sequence only, if that is given.
+/// earlier export, or if colmap would write into the folder of a sequence. Files of the binary form
+/// of colmap, which have no mark, are refused in the folder of the sequence only, if that is given.
 void CheckMapExport(const RunExport& arguments);
 
 /// Writes colmap or g2o of a map file. Throws std::runtime_error, naming the file and the fix.

@@ -18,6 +18,8 @@
 #include "msc_vo/exports/map_export.h"
 #include "msc_vo/map_file/map_images.h"
 #include "msc_vo/map_file/map_reader.h"
+#include "apps/cli/sequence_arguments.h"
+#include "apps/cli/unfinished_folder.h"
 #include "msc_vo/map_file/map_writer.h"
 #include "msc_vo/odometry/map_merge.h"
 #include "msc_vo/text/files.h"
@@ -93,6 +95,7 @@ void PrintMerge(const std::string& file, const MapMerge& merge) {
     std::cout << FormatText("%s: %d loops closed\n", file.c_str(), merge.num_loops);
   }
   if (merge.joins.empty()) {
+  RefuseSequenceFolder(folder);
     std::cout << file
               << ": no common place with the maps before it; its submaps keep their own worlds"
               << std::endl;

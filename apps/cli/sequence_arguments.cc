@@ -50,6 +50,24 @@ SequenceIndex OpenSource(const SequenceArguments& arguments) {
 
 }  // namespace
 
+void RefuseSequenceFolder(const std::string& folder) {
+  std::error_code error;
+  const std::filesystem::path path = std::filesystem::absolute(folder, error).lexically_normal();
+  if (!IsFolder(folder)) return;
+  SequenceArguments arguments;
+  for (const std::filesystem::path& directory :
+       {path, (path.has_filename() ? path : path.parent_path()).parent_path()}) {
+    arguments.directory = directory.string();
+    SequenceIndex index;
+    try {
+      index = OpenSource(arguments);
+    } catch (const std::exception&) {
+      continue;  // is none
+    }
+    RefuseToOverwrite(InputFolders(index), folder);
+  }
+}
+
 bool IsLiveCamera(const std::string& directory) { return directory.rfind(kCameraPrefix, 0) == 0; }
 
 CLI::Option* AddSequenceArguments(CLI::App* command, SequenceArguments* arguments) {

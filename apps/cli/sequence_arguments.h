@@ -42,6 +42,9 @@ enum class LiveCameras { kAllowed, kRefused };
 RgbdDecoder OpenDecoder(const SequenceArguments& arguments, const Configuration& configuration,
                         LiveCameras live_cameras = LiveCameras::kRefused);
 
+/// Throws std::runtime_error if a folder is that of a sequence, or of its images.
+void RefuseSequenceFolder(const std::string& folder);
+
 /// Takes the depth sensor that the sequence names, unless the options give one.
 void UseDepthSensorOf(const SequenceIndex& index, OdometryOptions* options);
 

@@ -211,6 +211,21 @@ TEST_F(MapOutputTest, RefusesAFolderInWhichAnExportIsUnfinished) {
   EXPECT_EQ(ReadFile(Path("export/export.json.files/notes.txt")), "mine");
 }
 
+TEST_F(MapOutputTest, RefusesToExportIntoASequence) {
+  for (const char* folder : {"room", "room/rgb", "room/depth/"}) {
+    for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+             {"map", "export", Path("home.map"), "--output", Path(folder)},
+             {"export", Path("home.map"), "colmap", Path(folder)}}) {
+      const CommandOutcome outcome = RunCommand(arguments);
+      EXPECT_EQ(outcome.exit_code, 1);
+      EXPECT_THAT(outcome.output, LineNames("error:", Path(folder), "input", "another path"));
+    }
+  }
+  EXPECT_FALSE(HasEntry(Path("room/submap_0")));
+  EXPECT_EQ(RunCommand({"map", "export", Path("home.map"), "--output", Path("room/map")}).exit_code,
+            0);
+}
+
 TEST_F(MapOutputTest, RefusesListsThatNoExportHasWritten) {
   WriteText("kept.txt", "mine");
   for (const char* text :
