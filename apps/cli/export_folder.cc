@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/cli/output_file.h"
+#include "apps/cli/unfinished_folder.h"
 #include "msc_vo/text/files.h"
 
 namespace msc_vo {
@@ -55,7 +56,8 @@ void WriteList(const fs::path& folder, const FileNames& names) {
 FileNames FilesBelow(const fs::path& folder) {
   FileNames names;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (!entry.is_directory()) names.insert(entry.path().lexically_relative(folder).string());
+    const std::string name = entry.path().lexically_relative(folder).string();
+    if (!entry.is_directory() && name != UnfinishedFolder::kMark) names.insert(name);
   }
   return names;
 }
@@ -103,24 +105,18 @@ void ReplaceExport(const std::string& folder, const std::string& input,
                    const std::function<void(const std::string&)>& write) {
   const FileNames earlier = ReadList(folder);
   const bool is_new = !HasEntry(folder);
-  const fs::path unfinished = fs::path(folder) / kUnfinishedName;
-  if (HasEntry(unfinished.string())) {
-    throw std::runtime_error(unfinished.string() + ": exists; another export is running, or was " +
-                             "killed: remove it then");
-  }
-  MakeFolder(unfinished.string());
-  std::error_code ignored;
+  MakeFolder(folder);
   try {
-    write(unfinished.string());
-    const FileNames names = FilesBelow(unfinished);
+    const UnfinishedFolder unfinished((fs::path(folder) / kUnfinishedName).string());
+    write(unfinished.path());
+    const FileNames names = FilesBelow(unfinished.path());
     RefuseToLose(folder, earlier, names, input);
-    MoveFiles(unfinished, folder, earlier, names);
+    MoveFiles(unfinished.path(), folder, earlier, names);
   } catch (...) {
-    fs::remove_all(unfinished, ignored);
+    std::error_code ignored;
     if (is_new) fs::remove(folder, ignored);
     throw;
   }
-  fs::remove_all(unfinished, ignored);
 }
 
 }  // namespace msc_vo

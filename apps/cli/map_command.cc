@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
+#include <cerrno>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <iterator>
 #include <map>
@@ -14,16 +16,18 @@
 
 #include "apps/cli/commands.h"
 #include "apps/cli/export_folder.h"
+#include "apps/cli/interrupt_guard.h"
 #include "apps/cli/run_map.h"
+#include "apps/cli/sequence_arguments.h"
+#include "apps/cli/unfinished_folder.h"
 #include "msc_vo/exports/map_export.h"
 #include "msc_vo/map_file/map_images.h"
 #include "msc_vo/map_file/map_reader.h"
-#include "apps/cli/sequence_arguments.h"
-#include "apps/cli/unfinished_folder.h"
 #include "msc_vo/map_file/map_writer.h"
 #include "msc_vo/odometry/map_merge.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
+#include "msc_vo/text/write_error.h"
 
 namespace msc_vo {
 
@@ -64,25 +68,39 @@ void PrintInfo(const std::string& file) {
 // Subfolder of an export for the images of keyframes. No dataset format uses this name.
 constexpr const char* kImageFolder = "keyframe_images";
 
-// Writes the images of the keyframes, named by their ids.
-void ExportImages(const std::string& file, const std::string& folder) {
+// Writes the images of the keyframes, named by their ids. Calls `check` before each of them.
+void ExportImages(const std::string& file, const std::string& folder,
+                  const std::function<void()>& check) {
   const fs::path path = fs::path(folder) / kImageFolder;
   const MapImages images(file);
   const std::vector<KeyframeId> keyframes = images.Keyframes();
   if (keyframes.empty()) return;
   MakeFolder(path.string());
   for (const KeyframeId id : keyframes) {
+    check();
     const std::string name = FormatText("%06lld.jpg", static_cast<long long>(id));  // sorts by name
     WriteFile((path / name).string(), images.Read(id));
   }
 }
 
+// Returns a function that throws Interrupted after a signal.
+std::function<void()> InterruptCheck(const InterruptGuard& guard, const std::string& output) {
+  return [&guard, output] {
+    if (guard.IsInterrupted()) throw Interrupted("interrupted; " + output + " is not written");
+  };
+}
+
 void Export(const std::string& file, const std::string& folder) {
+  const InterruptGuard guard;
+  const std::function<void()> check = InterruptCheck(guard, folder);
   const MapContents contents = LoadKeyframes(file);
   RefuseToOverwrite({file}, folder);
+  RefuseSequenceFolder(folder);
   ReplaceExport(folder, file, [&](const std::string& unfinished) {
+    check();
     ExportMap(contents, unfinished);
-    ExportImages(file, unfinished);
+    ExportImages(file, unfinished, check);
+    check();
   });
 }
 
@@ -95,37 +113,54 @@ void PrintMerge(const std::string& file, const MapMerge& merge) {
     std::cout << FormatText("%s: %d loops closed\n", file.c_str(), merge.num_loops);
   }
   if (merge.joins.empty()) {
-  RefuseSequenceFolder(folder);
     std::cout << file
               << ": no common place with the maps before it; its submaps keep their own worlds"
               << std::endl;
   }
 }
 
-void Merge(const std::vector<std::string>& files, const std::string& output) {
-  if (HasEntry(output)) {
-    throw std::runtime_error(output + ": exists; give the merged map another name");
+// Writes a map beside its file and renames it when it is complete: a killed process leaves none.
+void SaveCompleteMap(const std::string& file, MapContents contents,
+                     const KeyframeImageSource& images, const std::function<void()>& check) {
+  const UnfinishedFolder folder(file + ".unfinished");
+  const std::string unfinished = folder.File("merged.map");
+  try {
+    SaveMap(unfinished, std::move(contents), images);
+  } catch (const WriteError& error) {
+    throw WriteError(file, error.LacksSpace() ? ENOSPC : 0);
   }
+  check();
+  fs::rename(unfinished, file);
+}
+
+void Merge(const std::vector<std::string>& files, const std::string& output) {
+  const auto refuse_to_replace = [&output] {
+    if (!HasEntry(output)) return;
+    throw std::runtime_error(output + ": exists; give the merged map another name");
+  };
+  refuse_to_replace();
   CheckWritable(output);
+  const InterruptGuard guard;
+  const std::function<void()> check = InterruptCheck(guard, output);
   MapContents contents = LoadKeyframes(files.front());
   std::map<KeyframeId, MapImages> images;  // of each file, by what is added to its ids
   images.emplace(0, MapImages(files.front()));
   for (size_t i = 1; i < files.size(); ++i) {
+    check();
     MapMerge merge = MergeMaps({}, std::move(contents), LoadKeyframes(files[i]));
     PrintMerge(files[i], merge);
     contents = std::move(merge.contents);
     images.insert_or_assign(merge.keyframe_offset, MapImages(files[i]));
   }
-  try {
-    SaveMap(output, std::move(contents), [&images](KeyframeId id) {
-      const auto& [offset, of_file] = *std::prev(images.upper_bound(id));
-      return of_file.Read(id - offset);
-    });
-  } catch (...) {
-    std::error_code ignored;
-    fs::remove(output, ignored);  // it did not exist before
-    throw;
-  }
+  const auto image_of = [&](KeyframeId id) {
+    check();
+    const auto& [offset, of_file] = *std::prev(images.upper_bound(id));
+    return of_file.Read(id - offset);
+  };
+  SaveCompleteMap(output, std::move(contents), image_of, [&] {
+    check();
+    refuse_to_replace();
+  });
 }
 
 int Run(const MapCommandArguments& arguments) {

@@ -11,9 +11,11 @@
 #include "tests/apps/rendered_sequence.h"
 #include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include "msc_vo/map_file/map_reader.h"
@@ -209,6 +211,65 @@ TEST_F(MapOutputTest, RefusesAFolderInWhichAnExportIsUnfinished) {
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.output, LineNames("error:", "export.json.files", "remove it"));
   EXPECT_EQ(ReadFile(Path("export/export.json.files/notes.txt")), "mine");
+}
+
+// The system releases the lock of a process that was killed.
+TEST_F(MapOutputTest, ReplacesWhatAKilledProcessHasLeft) {
+  const std::vector<std::string> merge = {"map",           "merge",    Path("home.map"),
+                                          Path("old.map"), "--output", Path("all.map")};
+  fs::copy_file(Path("home.map"), Path("old.map"));
+  for (const std::string folder : {"export/export.json.files", "all.map.unfinished"}) {
+    WriteText(folder + "/msc_vo.lock", "");
+    WriteText(folder + "/merged.map", "half");
+    WriteText(folder + "/submap_0/half.ply", "half");
+    const bool is_export = folder.find("export") == 0;
+    const auto run = [&] { return is_export ? Export("home.map") : RunCommand(merge); };
+    const int lock = open(Path(folder + "/msc_vo.lock").c_str(), O_RDWR | O_CLOEXEC);
+    ASSERT_EQ(flock(lock, LOCK_EX), 0);
+    const CommandOutcome running = run();
+    EXPECT_EQ(running.exit_code, 1);
+    EXPECT_THAT(running.output, LineNames("error:", Path(folder), "another process"));
+    EXPECT_EQ(ReadFile(Path(folder + "/merged.map")), "half");
+    close(lock);
+    const CommandOutcome outcome = run();
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    EXPECT_FALSE(HasEntry(Path(folder)));
+  }
+  EXPECT_FALSE(HasEntry(Path("export/submap_0/half.ply")));
+  EXPECT_EQ(SummarizeMap(Path("all.map")).sessions.size(), 2u);
+}
+
+TEST_F(MapOutputTest, LeavesNothingIfItIsInterrupted) {
+  fs::copy_file(Path("home.map"), Path("old.map"));
+  for (const bool merges : {true, false}) {
+    const std::string output = Path(merges ? "all.map" : "export");
+    const std::string unfinished = merges ? output + ".unfinished" : output + "/export.json.files";
+    for (int attempt = 0;; ++attempt) {  // the command may end before the signal
+      ASSERT_LT(attempt, 20);
+      std::vector<std::string> arguments = {"map", merges ? "merge" : "export", Path("home.map")};
+      if (merges) arguments.push_back(Path("old.map"));
+      arguments.insert(arguments.end(), {"--output", output});
+      CommandProcess process(arguments);
+      const std::string last = merges ? output : output + "/export.json";
+      for (int i = 0; i < 60000 && !HasEntry(unfinished) && !HasEntry(last); ++i) usleep(100);
+      process.Signal(SIGTERM);
+      if (process.Wait() == 130) {
+        EXPECT_THAT(process.output(), LineNames("interrupted", output, "not written"));
+        break;
+      }
+      fs::remove_all(output);
+    }
+    EXPECT_FALSE(HasEntry(output));
+    EXPECT_FALSE(HasEntry(unfinished));
+  }
+}
+
+TEST_F(MapOutputTest, NamesTheFolderThatItCannotWrite) {
+  const CommandOutcome outcome =
+      RunCommand({"map", "export", Path("home.map"), "--output", "/proc"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.output, LineNames("error:", "/proc:", "cannot be written"));
+  EXPECT_THAT(outcome.output, testing::Not(testing::HasSubstr("export.json")));
 }
 
 TEST_F(MapOutputTest, RefusesToExportIntoASequence) {
