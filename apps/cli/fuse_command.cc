@@ -90,6 +90,10 @@ int Run(const FuseArguments& arguments) {
     UpdateReport(arguments.report, page, *fusion, mesh, images[images.size() / 2].pose);
   }
   if (!arguments.quiet) PrintResult(arguments, mesh, fused.num_images);
+  if (fused.is_interrupted) {
+    PrintWarning(FormatText("interrupted; %s is made of %d of %zu images", arguments.output.c_str(),
+                            fused.num_images, images.size()));
+  }
   return fused.is_interrupted ? kExitInterrupted : kExitSuccess;
 }
 

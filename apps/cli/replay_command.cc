@@ -165,8 +165,11 @@ int WriteResults(const ReplayArguments& arguments, const std::string& output,
     return kExitError;
   }
   if (run.exit_code == kExitTrackingFailed) PrintError(run.context.outcome);
-  if (run.exit_code == kExitInterrupted && is_resumable) {
-    PrintWarning("interrupted; to continue: " + resume);
+  if (run.exit_code == kExitInterrupted) {
+    PrintWarning(is_resumable ? "interrupted; to continue: " + resume
+                              : "interrupted; results so far are in " + output +
+                                    "; the run cannot be resumed: it has no checkpoint" +
+                                    (run.context.realtime ? ", as it was in real time" : ""));
   }
   return run.exit_code;
 }
@@ -296,6 +299,7 @@ int Run(const ReplayArguments& arguments, Configuration configuration, Resumed* 
   if (resumed != nullptr) run.context.command_line = resumed->identity.command_line;
   if (!run.HasImages()) {
     if (run.exit_code == kExitError) throw std::runtime_error(run.context.outcome);
+    if (run.exit_code == kExitInterrupted) PrintWarning("interrupted before the first image");
     exports->clear();
     return run.exit_code;
   }

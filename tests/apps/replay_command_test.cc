@@ -341,10 +341,11 @@ TEST_F(ReplayCommandTest, ExcludesUnestimatedPosesFromCoverage) {
 TEST_F(ReplayCommandTest, WritesResultsOnInterrupt) {
   Synthesize(60);
   // Paced, so that the run is not over before the signal.
-  CommandProcess replay({"replay", Path("room"), "--output", Path("out"), "--realtime"});
+  CommandProcess replay({"replay", Path("room"), "--output", Path("out"), "--realtime", "--quiet"});
   WaitForPoses("out", 6);
   replay.Signal(SIGINT);
   EXPECT_EQ(replay.Wait(), 130) << replay.output();
+  EXPECT_THAT(replay.output(), LineNames("interrupted", Path("out"), "resumed", "real time"));
   EXPECT_GE(NumPoses("out"), 6u);
   EXPECT_LT(NumPoses("out"), 60u);
   EXPECT_EQ(Summary("out")["outcome"], "interrupted");
