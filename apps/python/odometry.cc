@@ -3,6 +3,7 @@
 
 #include "msc_vo/odometry/odometry.h"
 
+#include <algorithm>
 #include <atomic>
 #include <map>
 #include <memory>
@@ -22,6 +23,7 @@
 #include "apps/python/lens_argument.h"
 #include "apps/python/map.h"
 #include "apps/python/option_table.h"
+#include "apps/python/python_names.h"
 #include "apps/python/shared_object.h"
 #include "apps/python/tracked_image.h"
 #include "msc_vo/map_file/map_reader.h"
@@ -43,6 +45,21 @@ void CheckByteOrder(const cv::Mat& depth, const py::object& depth_scale) {
   throw std::invalid_argument(
       "depth: the two bytes of the values are swapped; give depth.byteswap(), or read the images "
       "with the high byte first");
+}
+
+// Removes the last session, that of the run, if no keyframe of it is in the maps. Throws
+// std::invalid_argument if they have no keyframes at all, which would replace an earlier map.
+void LeaveOutEmptySession(const std::string& path, MapContents* contents) {
+  KeyframeId newest = kNoId;
+  for (const SavedSubMap& submap : contents->submaps) {
+    const auto& keyframes = submap.map.keyframes();
+    if (!keyframes.empty()) newest = std::max(newest, keyframes.back().first);
+  }
+  if (newest == kNoId) {
+    throw std::invalid_argument(path + ": not written, since the map has no keyframes yet; call " +
+                                "process() before save_map()");
+  }
+  if (newest < contents->sessions.back().first_keyframe) contents->sessions.pop_back();
 }
 
 // The odometry without the GIL, and the numbering of its images.
@@ -104,6 +121,7 @@ class PyOdometry {
     const std::map<KeyframeId, std::string> jpegs(images.begin(), images.end());
     auto maps = Alone([&] { return odometry_->ShareMaps(session); });
     if (!maps) throw std::runtime_error(path + ": not written, since a keyframe step has failed");
+    LeaveOutEmptySession(path, &*maps);
     const py::gil_scoped_release release;
     SaveMap(path, std::move(*maps), [&jpegs](KeyframeId id) {
       const auto jpeg = jpegs.find(id);
@@ -259,7 +277,7 @@ class PyOdometry {
       std::atomic<bool>* busy;
       ~Guard() { *busy = false; }
     } const guard{&busy_};
-    return action();
+    return WithPythonNames(action);
   }
 
   // The position of the next image in the sequence.
@@ -296,7 +314,8 @@ void BindStorage(py::class_<PyOdometry>* odometry) {
           "Waits for local mapping and replaces a file by the map of this and earlier sessions. "
           "images: dict from the id of a keyframe to the bytes of a JPEG file of at most 64 KB; "
           "ValueError on other bytes. The file keeps the images of keyframes that are still in the "
-          "map and whose session has a name.")
+          "map and whose session has a name. ValueError, and nothing is written, without "
+          "keyframes.")
       .def(
           "save", &PyOdometry::Save, py::arg("folder"),
           "Waits for local mapping and writes a checkpoint of the run, which replaces an earlier "

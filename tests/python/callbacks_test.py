@@ -166,7 +166,8 @@ class Callbacks(unittest.TestCase):
             step(odometry)
             for name in ("set_pose_factors", "set_window_factors", "set_window_observer"):
                 for callback in (None, lambda *_: None):
-                    with self.assertRaisesRegex(ValueError, "before the first image"):
+                    with self.assertRaisesRegex(ValueError,
+                                                rf"{name}\(\).* before the first image"):
                         getattr(odometry, name)(callback)
 
     def test_a_frame_whose_callback_raises_is_complete(self):

@@ -1,7 +1,9 @@
 """What a new user does in one session, from a folder to an own camera."""
+import contextlib
 import multiprocessing
 import pathlib
 import pickle
+import sqlite3
 import tempfile
 import unittest
 
@@ -86,10 +88,18 @@ class Session(unittest.TestCase):
             second = msc_vo.Odometry(options, sequence.camera, sequence.lens)
             with self.assertRaisesRegex(RuntimeError, "none.map"):
                 second.load_map(pathlib.Path(folder, "none.map"))
+            with self.assertRaisesRegex(ValueError, "home.map.*no keyframes"):
+                second.save_map(path)
+            self.assertEqual(msc_vo.map_images(path), {first_id: jpeg})
             second.load_map(path)
+            with self.assertRaisesRegex(ValueError, r"load_map\(\)"):
+                second.load_map(path)
+            unseen = pathlib.Path(folder, "unseen.map")
+            second.save_map(unseen, session="second")  # has no keyframe of its own yet
+            self.assertEqual(sessions(unseen), ["first"])
             for image in sequence:
                 second.process(image.timestamp, image.gray, image.depth)
-            with self.assertRaisesRegex(ValueError, "first image"):
+            with self.assertRaisesRegex(ValueError, r"load_map\(\).*first image"):
                 second.load_map(path)
             second.save_map(path, images={other_id: jpeg + b" later"})
             kept = second.map().window.keyframe_ids
@@ -125,6 +135,11 @@ class Session(unittest.TestCase):
         self.assertLess(apart.max(), 0.01)
         apart = np.linalg.norm(result.trajectory[:, 1:4] - first.finish().trajectory[:, 1:4], axis=1)
         self.assertLess(apart.max(), 0.01)
+
+
+def sessions(path):
+    with contextlib.closing(sqlite3.connect(path)) as file:
+        return [name for name, in file.execute("SELECT name FROM session")]
 
 
 def first_pose(result):
