@@ -102,7 +102,11 @@ int Report(const BenchmarkArguments& arguments, const Shard& shard, const Benchm
   } else if (!arguments.run.quiet) {
     std::cout << FormatBenchmarkMarkdown(benchmark) << std::flush;
   }
-  if (is_interrupted) return kExitInterrupted;
+  if (is_interrupted) {
+    PrintWarning("interrupted; finished runs are in " + arguments.output +
+                 ", and the same command with --resume continues");
+    return kExitInterrupted;
+  }
   const auto num_failed =
       std::count_if(benchmark.runs.begin(), benchmark.runs.end(),
                     [](const BenchmarkRun& run) { return !run.failure.empty(); });

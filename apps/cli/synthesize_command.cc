@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/cli/command_log.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/interrupt_guard.h"
 #include "apps/cli/progress.h"
@@ -218,7 +219,10 @@ int Run(const SynthesizeArguments& arguments) {
   }
   progress.Finish();
   if (arguments.json) PrintJson(arguments, true_calibration, num_done, num_frames);
-  return guard.IsInterrupted() ? kExitInterrupted : kExitSuccess;
+  if (!guard.IsInterrupted()) return kExitSuccess;
+  PrintWarning(FormatText("interrupted; %s has %d of %d images", folder.string().c_str(), num_done,
+                          num_frames));
+  return kExitInterrupted;
 }
 
 }  // namespace

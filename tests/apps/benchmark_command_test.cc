@@ -162,6 +162,7 @@ TEST_F(BenchmarkCommandTest, WritesFinishedRunsOnInterrupt) {
   ASSERT_TRUE(benchmark.WaitForOutput("room-2, pl-vo-depth:")) << benchmark.output();
   benchmark.Signal(SIGINT);
   EXPECT_EQ(benchmark.Wait(), 130) << benchmark.output();
+  EXPECT_THAT(benchmark.output(), testing::HasSubstr("interrupted; finished runs are in "));
   const nlohmann::json runs = Numbers()["runs"];
   ASSERT_EQ(runs.size(), 2u);
   EXPECT_TRUE(runs[0]["failure"].is_null());

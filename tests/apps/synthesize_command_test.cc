@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
 #include <algorithm>
+#include <csignal>
 
 #include "tests/apps/command_process.h"
 #include "tests/support/message_matchers.h"
@@ -9,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <unistd.h>
 
 #include "msc_vo/datasets/accelerometer.h"
 #include "msc_vo/text/files.h"
@@ -231,6 +233,18 @@ TEST_F(SynthesizeCommandTest, DisplacesDepthOfIclNuim) {
 }
 
 // The same options render the same sequence again, and take nothing away.
+TEST_F(SynthesizeCommandTest, SaysHowManyImagesAnInterruptedRunHasWritten) {
+  CommandProcess synthesize({"synthesize", Path("long"), "--frames", "5000", "--width", "160"});
+  const std::string truth = Path("long/groundtruth.txt");
+  for (int i = 0; i < 60000; ++i) {
+    if (HasEntry(truth) && ReadFile(truth).size() > 200) break;  // it has poses
+    usleep(1000);
+  }
+  synthesize.Signal(SIGINT);
+  EXPECT_EQ(synthesize.Wait(), 130) << synthesize.output();
+  EXPECT_THAT(synthesize.output(), LineNames("interrupted", Path("long"), "5000"));
+}
+
 TEST_F(SynthesizeCommandTest, ReplacesTheSequenceOfTheSameOptions) {
   Truth("room", {"--seed", "3"});
   const std::string color = Color("room");
