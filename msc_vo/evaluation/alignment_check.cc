@@ -63,6 +63,12 @@ double Rounding(const Poses& poses) {
   return 1e-9 * (1.0 + largest);
 }
 
+// Residual of the positions after alignment without scale, square metres (mean).
+double PositionVariance(const Poses& reference, const Poses& estimate) {
+  const Moments m = MomentsOf(reference, estimate, 0, reference.size());
+  return std::max(0.0, m.reference + m.estimate - 2.0 * m.common.sum());
+}
+
 std::string Millimetres(double square_metres) {
   return FormatText("%.3g mm", 1e3 * std::sqrt(std::max(square_metres, 0.0)));
 }
@@ -247,12 +253,6 @@ std::string DescribeAxes(const AxesTurn& axes, double given, bool estimate_is_ow
       RadiansToDegrees(given), is_reflected ? ", which may not be mirrored" : "");
 }
 
-// Residual of the positions after alignment, square metres (mean).
-double PositionVariance(const Poses& reference, const Poses& estimate) {
-  const Moments m = MomentsOf(reference, estimate, 0, reference.size());
-  return std::max(0.0, m.reference + m.estimate - 2.0 * m.common.sum());
-}
-
 Poses Inverted(Poses poses) {
   for (Rigid3& pose : poses) pose = pose.Inverse();
   return poses;
@@ -292,15 +292,16 @@ std::string DescribeUndetermined(const Poses& reference, const Poses& estimate, 
            " of the alignment";
   }
   const Moments moments = MomentsOf(reference, estimate, 0, reference.size());
-  // An error of the scale moves positions along their rays and determines the rotation all the
-  // same.
+  // A wrong scale moves positions along their rays, which leaves the rotation determined.
   const double scale = moments.common.sum() / moments.estimate;
   const double squares = moments.reference + scale * scale * moments.estimate;
   constexpr double kEpsilon = 1e-14;  // rounding of the moments
   const double error = std::max({squares - 2.0 * scale * moments.common.sum(), kEpsilon * squares,
                                  std::pow(Rounding(reference) + scale * Rounding(estimate), 2.0)});
   if (!(scale * moments.common.sum() > error)) {  // also if the squares overflow
-    return "the error of the positions (" + Millimetres(error) +
+    const double stated =
+        with_scale ? error : std::max(error, PositionVariance(reference, estimate));
+    return "the error of the positions (" + Millimetres(stated) +
            ") exceeds the motion that both trajectories share (" +
            Millimetres(scale * moments.common.sum()) + "), which determines no rotation" +
            (with_scale ? " and no scale" : "") + " of the alignment";

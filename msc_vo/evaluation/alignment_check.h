@@ -20,8 +20,9 @@ bool IsStatic(const std::vector<Rigid3>& poses);
 
 /// Describes what a rigid alignment, or a similarity, leaves undetermined: the rotation if a
 /// trajectory does not move, or moves less than it is in error; the rotation about a straight line.
-/// A wrong scale is no error of the positions, see DescribeScaleContradiction(). Empty if the
-/// alignment is determined.
+/// A wrong scale is no error of the positions, see DescribeScaleContradiction(): the test scales
+/// the estimate, while the error that is stated is that of the alignment, scaled only if
+/// `with_scale`. Empty if the alignment is determined.
 std::string DescribeUndetermined(const std::vector<Rigid3>& reference,
                                  const std::vector<Rigid3>& estimate, bool with_scale);
 

@@ -118,6 +118,23 @@ TEST(DescribeUndetermined, DoesNotCountAWrongScaleAsAnErrorOfPositions) {
   }
 }
 
+// The path is not related to the reference, and a hundred times as long.
+TEST(DescribeUndetermined, StatesTheErrorOfTheAlignment) {
+  const Poses lost = WithNoise(Still(Path()), 20.0, 0.0, 1);
+  double squares = 0.0;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Rigid3& pose : lost) mean += pose.translation() / static_cast<double>(lost.size());
+  for (const Rigid3& pose : lost) squares += (pose.translation() - mean).squaredNorm();
+  const double spread = 1e3 * std::sqrt(squares / static_cast<double>(lost.size()));
+  const auto error = [&](bool with_scale) {
+    const std::string text = DescribeUndetermined(Path(), lost, with_scale);
+    const size_t begin = text.find('(');
+    return begin == std::string::npos ? 0.0 : std::stod(text.substr(begin + 1));
+  };
+  EXPECT_NEAR(error(false) / spread, 1.0, 0.1);
+  EXPECT_LT(error(true), 0.1 * spread);
+}
+
 TEST(DescribeScaleContradiction, NamesTheFactorOfWrongUnits) {
   EXPECT_THAT(DescribeScaleContradiction(Scaled(Path(), 5.0), Path()),
               Names("reference path", "5.0", "depth_scale"));
