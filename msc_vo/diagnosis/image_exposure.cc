@@ -11,6 +11,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "msc_vo/diagnosis/quantile.h"
+#include "msc_vo/odometry/loss_cause.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
@@ -20,8 +21,6 @@ namespace {
 using Histogram = std::array<int, 256>;
 
 constexpr int kSaturatedLevel = 250;
-// Standard deviation of grey levels of an image that shows nothing; sensor noise is about 2.
-constexpr double kMinContrast = 4.0;
 constexpr double kMaxSaturated = 0.2;
 constexpr double kMinBrightLevel = 60.0;
 // Edge width at an image width of 640 pixels, from the distributions in docs/usage.md.
@@ -80,62 +79,92 @@ double MedianEdgeWidth(const cv::Mat& gray) {
   return Median(std::move(widths));
 }
 
-// Ratio of the images with a property.
+bool IsUniform(const ImageExposure& image) { return image.contrast < kMinImageContrast; }
+
+// The images with a property, of all that are decoded.
+struct Count {
+  size_t count = 0;
+  size_t size = 0;
+
+  double Ratio() const { return static_cast<double>(count) / static_cast<double>(size); }
+  // With the verb: "1 of 4 decoded images (25 %) is".
+  std::string Text() const {
+    return FormatText("%zu of %zu decoded images (%.0f %%) %s", count, size, 100.0 * Ratio(),
+                      count == 1 ? "is" : "are");
+  }
+};
+
 template <typename Predicate>
-double RatioOf(const std::vector<ImageExposure>& images, const Predicate& has_property) {
-  const auto count = std::count_if(images.begin(), images.end(), has_property);
-  return static_cast<double>(count) / static_cast<double>(images.size());
+Count CountOf(const std::vector<ImageExposure>& images, const Predicate& has_property) {
+  return {static_cast<size_t>(std::count_if(images.begin(), images.end(), has_property)),
+          images.size()};
 }
 
-void AddUniform(const std::vector<ImageExposure>& images, Findings* findings) {
-  const double ratio =
-      RatioOf(images, [](const ImageExposure& image) { return image.contrast < kMinContrast; });
-  if (ratio <= 0.0) return;
+// Uniform images with or without depth. Planes of the depth images need no colour.
+void AddUniform(const std::vector<ImageExposure>& images, bool with_depth, Findings* findings) {
+  const auto is_meant = [with_depth](const ImageExposure& image) {
+    return IsUniform(image) && (image.measured_depth >= kMinMeasuredDepth) == with_depth;
+  };
+  const Count uniform = CountOf(images, is_meant);
+  if (uniform.count == 0) return;
   std::vector<double> means;
   for (const ImageExposure& image : images) {
-    if (image.contrast < kMinContrast) means.push_back(image.mean);
+    if (is_meant(image)) means.push_back(image.mean);
   }
   const double mean = Median(std::move(means));
   const char* kind = mean < 40.0 ? "black" : mean > 215.0 ? "white" : "uniformly grey";
-  const std::string text = FormatText("%.0f %% of the images are %s (median grey level %.0f)",
-                                      100.0 * ratio, kind, mean);
-  const std::string fix = "check lens cap, light and exposure; leave these images out";
-  const Measurement measurement{ratio, "ratio"};
-  findings->push_back(ratio > kErrorRatio ? Error("images.uniform", text, fix, measurement)
-                                          : Warning("images.uniform", text, fix, measurement));
+  const std::string text = uniform.Text() + FormatText(" %s (median grey level %.0f), %s depth",
+                                                       kind, mean, with_depth ? "with" : "without");
+  const Measurement measurement{uniform.Ratio(), "ratio"};
+  if (with_depth) {
+    findings->push_back(
+        Warning("images.uniform", text,
+                "planes of the depth images can give poses there, if their normals "
+                "span three directions (mode msc-vo, the default), once an image with "
+                "features has begun the map; if the images should show more, check "
+                "lens cap, light and exposure",
+                measurement));
+    return;
+  }
+  const auto add = uniform.Ratio() > kErrorRatio ? Error : Warning;
+  findings->push_back(add("images.uniform", text,
+                          "check lens cap, light and exposure; leave these images out",
+                          measurement));
 }
 
 void AddExposure(const std::vector<ImageExposure>& images, Findings* findings) {
   const size_t before = findings->size();
-  const double saturated = RatioOf(images, [](const ImageExposure& image) {
-    return image.saturated > kMaxSaturated && image.contrast >= kMinContrast;
+  const Count saturated = CountOf(images, [](const ImageExposure& image) {
+    return image.saturated > kMaxSaturated && !IsUniform(image);
   });
-  if (saturated > kWarningRatio) {
-    findings->push_back(Warning(
-        "images.overexposed",
-        FormatText("%.0f %% of the images are over-exposed: more than %.0f %% of their pixels "
-                   "are white",
-                   100.0 * saturated, 100.0 * kMaxSaturated),
-        "shorten the exposure; white areas have no points and no lines",
-        Measurement{saturated, "ratio"}));
+  if (saturated.Ratio() > kWarningRatio) {
+    findings->push_back(
+        Warning("images.overexposed",
+                saturated.Text() + FormatText(" over-exposed: more than %.0f %% of the pixels are "
+                                              "white",
+                                              100.0 * kMaxSaturated),
+                "shorten the exposure; white areas have no points and no lines",
+                Measurement{saturated.Ratio(), "ratio"}));
   }
-  const double dim = RatioOf(images, [](const ImageExposure& image) {
-    return image.bright_level < kMinBrightLevel && image.contrast >= kMinContrast;
+  const Count dim = CountOf(images, [](const ImageExposure& image) {
+    return image.bright_level < kMinBrightLevel && !IsUniform(image);
   });
-  if (dim > kWarningRatio) {
+  if (dim.Ratio() > kWarningRatio) {
     findings->push_back(Warning(
         "images.dim",
-        FormatText("%.0f %% of the images are dim: 95 %% of their pixels are below grey "
-                   "level %.0f",
-                   100.0 * dim, kMinBrightLevel),
-        "more light or gain; or lower features.points.fast_threshold", Measurement{dim, "ratio"}));
+        dim.Text() +
+            FormatText(" dim: 95 %% of the pixels are below grey level %.0f", kMinBrightLevel),
+        "more light or gain; or lower features.points.fast_threshold",
+        Measurement{dim.Ratio(), "ratio"}));
   }
   if (findings->size() > before) return;
   std::vector<double> means, contrasts;
   for (const ImageExposure& image : images) {
+    if (IsUniform(image)) continue;  // reported by AddUniform()
     means.push_back(image.mean);
     contrasts.push_back(image.contrast);
   }
+  if (means.empty()) return;
   const double mean = Median(std::move(means));
   findings->push_back(Good("images.exposure",
                            FormatText("exposure: median grey level %.0f, contrast %.0f", mean,
@@ -153,12 +182,13 @@ void AddBlur(const std::vector<ImageExposure>& images, int width, Findings* find
   const double limit = std::max(4.5, kMaxEdgeWidth * width / 640.0);
   const auto num_blurred =
       std::count_if(widths.begin(), widths.end(), [limit](double value) { return value > limit; });
-  const double ratio = static_cast<double>(num_blurred) / static_cast<double>(widths.size());
+  const size_t num_with_edges = widths.size();
+  const double ratio = static_cast<double>(num_blurred) / static_cast<double>(num_with_edges);
   const double median = Median(std::move(widths));
   const std::string text = FormatText(
-      "sharpness: edges are %.1f px wide in the median image, wider than %.1f px in "
-      "%.0f %% of the images",
-      median, limit, 100.0 * ratio);
+      "sharpness: edges are %.1f px wide in the median image, wider than %.1f px in %td of %zu "
+      "decoded images with edges",
+      median, limit, num_blurred, num_with_edges);
   if (ratio <= kBlurRatio) {
     findings->push_back(Good("images.blur", text, Measurement{median, "px"}));
     return;
@@ -200,7 +230,7 @@ ImageExposure MeasureExposure(const cv::Mat& gray) {
 
 void AddExposureFindings(const std::vector<ImageExposure>& images, int width, Findings* findings) {
   if (images.empty()) return;
-  AddUniform(images, findings);
+  for (const bool with_depth : {false, true}) AddUniform(images, with_depth, findings);
   AddExposure(images, findings);
   AddBlur(images, width, findings);
 }

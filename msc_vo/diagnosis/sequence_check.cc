@@ -44,7 +44,7 @@ struct SampleMeasurements {
   DepthUnits units;
   ByteOrder byte_order;
   std::vector<EdgeAlignment> alignments;
-  std::vector<Texture> textures;
+  std::vector<ImageTexture> textures;
   std::vector<std::string> failures;
 };
 
@@ -69,6 +69,7 @@ SampleMeasurements MeasureSample(const RgbdDecoder& decoder, int count,
       const RgbdImage image = decoder.Decode(SampleIndex(k, count, decoder.size()));
       sample.exposures.push_back(MeasureExposure(image.gray));
       sample.depths.push_back(MeasureDepth(image.depth));
+      sample.exposures.back().measured_depth = sample.depths.back().valid;
       sample.byte_order.Add(image.recorded_depth.empty() ? image.depth : image.recorded_depth,
                             calibration.depth_scale);
       curve->Add(image.depth);

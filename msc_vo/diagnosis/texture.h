@@ -10,16 +10,17 @@
 
 namespace msc_vo {
 
-/// Features of one image.
-struct Texture {
+/// Features of one image and its depth image.
+struct ImageTexture {
   int points = 0;
   int points_with_depth = 0;
   int lines = 0;
+  bool planes_determine_pose = false;  ///< their normals span three directions
 };
 
-Texture MeasureTexture(const Frame& frame);
+ImageTexture MeasureTexture(const Frame& frame);
 
-/// Whether there are enough points and lines, and which mode suits the scene.
-void AddTextureFindings(const std::vector<Texture>& images, Findings* findings);
+/// Whether there are enough points and lines, and what gives poses if there are not.
+void AddTextureFindings(const std::vector<ImageTexture>& images, Findings* findings);
 
 }  // namespace msc_vo

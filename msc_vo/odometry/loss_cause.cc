@@ -7,11 +7,8 @@ namespace msc_vo {
 
 namespace {
 
-constexpr double kMinContrast = 2.0;        // grey values; noise of a sensor in the dark
-constexpr double kMinMeasuredDepth = 0.05;  // fraction of the pixels
-
 LossCause FirstCause(const FrameResult& frame, int min_features) {
-  if (frame.image.contrast < kMinContrast) return LossCause::kUniformImage;
+  if (frame.image.contrast < kMinImageContrast) return LossCause::kUniformImage;
   if (frame.num_points + frame.num_lines < min_features) return LossCause::kFewFeatures;
   if (frame.image.measured_depth < kMinMeasuredDepth) return LossCause::kNoDepth;
   if (frame.num_with_depth < min_features) return LossCause::kDepthOutOfRange;

@@ -9,6 +9,12 @@
 
 namespace msc_vo {
 
+/// Contrast (standard deviation of the grey levels) below which an image shows nothing: noise of a
+/// sensor in the dark has 2 to 3.
+constexpr double kMinImageContrast = 4.0;
+/// Ratio of the pixels with a depth below which an image has no depth.
+constexpr double kMinMeasuredDepth = 0.05;
+
 /// The cause for a frame with image, from its numbers; std::nullopt if it is tracked.
 /// `min_features`: TrackerOptions::min_initial_features; `is_implausible`:
 /// TrackedFrame::is_implausible.

@@ -227,7 +227,13 @@ TEST_F(BrokenSequenceTest, FindsMirroredImagesInFewImages) {
 }
 
 TEST_F(BrokenSequenceTest, FindsDefectsOfImages) {
-  ExpectError("black", "images.uniform", Names("black"), [](Recording* r) {
+  ExpectError("black", "images.uniform", Names("black", "leave"), [](Recording* r) {
+    ForAllImages(r, [](Recording::Image* i) {
+      i->color.setTo(2);
+      i->depth.setTo(0);
+    });
+  });
+  ExpectWarning("dark", false, "images.uniform", Names("black", "planes"), [](Recording* r) {
     ForAllImages(r, [](Recording::Image* i) { i->color.setTo(2); });
   });
   ExpectWarning("some_black", false, "images.uniform", Names("black"), [](Recording* r) {
