@@ -100,7 +100,15 @@ void AddRegistrationFindings(const std::vector<EdgeAlignment>& images, int width
   const int num_edges = sum.coarse.num_edges;
   const int num_distinct = NumDistinctEdges(sum);
   const double min_peak = MinPeak(num_distinct);
-  if (num_edges < kMinEdges || peak.peak - peak.background < min_peak) {
+  if (num_edges < kMinEdges) {
+    findings->push_back(
+        Good("registration.shift",
+             FormatText("registration of depth to colour is not tested: %d depth edge pixels in "
+                        "%zu images without a delay of depth, %d needed",
+                        num_edges, simultaneous.size(), kMinEdges)));
+    return;
+  }
+  if (peak.peak - peak.background < min_peak) {
     findings->push_back(Good(
         "registration.shift",
         FormatText("registration of depth to colour is not tested: too few common edges in %zu "

@@ -63,6 +63,8 @@ TEST_F(SequenceCheckTest, ReportsNoProblemOfValidSequence) {
                                             Field(&Finding::check, "images.texture"))));
   EXPECT_THAT(findings, Contains(Is(Severity::kGood, "depth.scale", Names("2.00 m"))));
   EXPECT_THAT(findings, Contains(Is(Severity::kGood, "ground_truth.overlap", Names("6"))));
+  EXPECT_THAT(findings, Contains(Is(Severity::kGood, "registration.shift",
+                                    Names("not tested", "0 depth edge pixels", "2000"))));
 }
 
 TEST_F(SequenceCheckTest, CalibrationViewsAreOfOneWorld) {
