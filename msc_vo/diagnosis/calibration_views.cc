@@ -16,9 +16,11 @@ namespace msc_vo {
 
 namespace {
 
-// Velocity between two frames; std::nullopt unless both poses are estimated, in one world.
+// Velocity between two frames; std::nullopt unless both are tracked, in one world.
 std::optional<CameraVelocity> VelocityBetween(const FrameResult& before, const FrameResult& after) {
-  if (!IsEstimated(before.status) || !IsEstimated(after.status)) return std::nullopt;
+  for (const FrameResult* frame : {&before, &after}) {
+    if (frame->status != TrackingStatus::kTracked) return std::nullopt;
+  }
   if (before.world != after.world) return std::nullopt;
   return CameraVelocity::Of(after.cam_from_world * before.cam_from_world.Inverse(),
                             after.timestamp - before.timestamp);

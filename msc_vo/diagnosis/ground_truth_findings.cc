@@ -11,6 +11,7 @@
 #include "msc_vo/diagnosis/ground_truth_reading.h"
 #include "msc_vo/diagnosis/motion_track.h"
 #include "msc_vo/diagnosis/sequence_findings.h"
+#include "msc_vo/geometry/angles.h"
 #include "msc_vo/geometry/timed_pose.h"
 #include "msc_vo/text/format_text.h"
 
@@ -33,10 +34,10 @@ class GroundTruthComparison {
 
   void Run() {
     const std::vector<MotionComparison> given = CompareMotions(track_, truth_, TruthReading());
-    if (given.size() < kMinPairs || MedianRotation(given) < kMinRotation) {
-      findings_->push_back(Good("ground_truth.convention",
-                                "ground truth against motion: not tested, too few images with "
-                                "ground truth match, or the camera turns too little"));
+    const std::string obstacle = DescribeObstacle(given);
+    if (!obstacle.empty()) {
+      findings_->push_back(
+          Good("ground_truth.convention", "ground truth against motion: not tested, " + obstacle));
       return;
     }
     const TruthReadings readings = FindReading(track_, truth_);
@@ -46,6 +47,24 @@ class GroundTruthComparison {
   }
 
  private:
+  // Why the motions decide nothing; empty if they do.
+  std::string DescribeObstacle(const std::vector<MotionComparison>& motions) const {
+    if (motions.size() < kMinPairs) {
+      const std::string weak =
+          track_.num_weak > 0 ? FormatText(", %d have a weak pose", track_.num_weak) : "";
+      return FormatText("%zu of %d images are tracked", track_.images.size(), track_.num_images) +
+             weak +
+             FormatText(", and %zu pairs of tracked images have ground truth, %zu needed",
+                        motions.size(), kMinPairs);
+    }
+    const double rotation = MedianRotation(motions);
+    if (rotation >= kMinRotation) return "";
+    return FormatText(
+        "the camera turns too little: by %.1f degrees in the median pair of images, "
+        "%.1f needed",
+        RadiansToDegrees(rotation), RadiansToDegrees(kMinRotation));
+  }
+
   static double MedianRotation(const std::vector<MotionComparison>& comparisons) {
     std::vector<double> rotations;
     for (const MotionComparison& c : comparisons) rotations.push_back(c.image_rotation.norm());
@@ -96,7 +115,14 @@ class GroundTruthComparison {
     if (!offset) {
       findings_->push_back(Good(check,
                                 "time offset of the ground truth: not tested, the camera "
-                                "turns too little"));
+                                "turns too little, or too few consecutive images are tracked"));
+      return;
+    }
+    if (kSignificantSigmas * offset->sigma > kTimeOffsetReach) {
+      findings_->push_back(
+          Good(check, FormatText("time offset of the ground truth: not tested, the "
+                                 "motion determines it to +- %.0f ms only",
+                                 1e3 * offset->sigma)));
       return;
     }
     const Measurement measurement{offset->seconds, "s"};
@@ -116,7 +142,16 @@ class GroundTruthComparison {
 
   void AddTranslations(const TruthReading& reading) {
     const std::vector<MotionComparison> comparisons = CompareMotions(track_, truth_, reading);
-    if (comparisons.size() < kMinPairs || MedianTranslation(comparisons) < kMinTranslation) return;
+    if (comparisons.size() < kMinPairs) return;
+    const double translation = MedianTranslation(comparisons);
+    if (translation < kMinTranslation) {
+      findings_->push_back(
+          Good("ground_truth.positions",
+               FormatText("positions of the ground truth: not tested, the camera moves too little: "
+                          "by %.0f mm in the median pair of images, %.0f needed",
+                          1e3 * translation, 1e3 * kMinTranslation)));
+      return;
+    }
     const HandEye hand_eye = FitSignificantHandEye(comparisons, reading.Axes());
     if (hand_eye.correlation < kMinCorrelation) {
       findings_->push_back(

@@ -78,8 +78,8 @@ HandEye FitWithPrior(const std::vector<MotionComparison>& comparisons,
 }
 
 // Of the time offset.
-constexpr double kTimeStep = 0.01;     // seconds, of the offsets that are tried
-constexpr double kTurnInterval = 0.1;  // seconds, of the rotations that are compared
+constexpr double kTimeStep = 0.01;      // seconds, of the offsets that are tried
+constexpr double kTurnInterval = 0.1;   // seconds, of the rotations that are compared
 constexpr double kMinTurnScale = 1e-3;  // radians, of the errors of these rotations
 // Fewest turns that are compared: two seconds of a camera with ten images per second.
 constexpr size_t kMinTurns = 20;

@@ -16,7 +16,6 @@ namespace msc_vo {
 
 namespace {
 
-constexpr double kReach = 0.5;       // seconds, of the search for a time offset
 constexpr double kMaxOffset = 0.02;  // seconds
 // Ratio of the disagreements by which another convention or other axes must be better.
 constexpr double kBetter = 0.5;
@@ -216,7 +215,7 @@ std::optional<TimeOffset> EstimateTimeOffset(const MotionTrack& track,
                                              const std::vector<TimedPose>& truth,
                                              const TruthReading& reading) {
   return EstimateTimeOffset(track, ReadAs(reading.convention, truth), reading.camera_from_body,
-                            kReach);
+                            kTimeOffsetReach);
 }
 
 bool IsSignificant(const TimeOffset& offset) {

@@ -24,6 +24,8 @@ constexpr double kMinCorrelation = 0.6;
 constexpr size_t kMinPairs = 8;
 constexpr double kMinTranslation = 0.03;  ///< metres, median of the pairs
 
+constexpr double kTimeOffsetReach = 0.5;  ///< seconds, of the search for a time offset
+
 /// How the ground truth may be read.
 struct TruthReading {
   PoseConvention convention = PoseConvention::kCameraInWorld;

@@ -140,6 +140,22 @@ class LatencyEstimator {
   std::array<std::array<cv::Mat, kNumLatencies>, kGroups> sums_;
 };
 
+// Whether the images have poses, and whether these are certain.
+void AddMatching(const MotionTrack& track, Findings* findings) {
+  const auto num_tracked = static_cast<int>(track.images.size());
+  const auto are_few = [&track](int count) { return count < kMinTrackedRatio * track.num_images; };
+  if (!are_few(num_tracked)) return;
+  std::string text =
+      FormatText("only %d of %d images can be tracked", num_tracked, track.num_images);
+  if (track.num_weak > 0) text += FormatText(", %d have a weak pose", track.num_weak);
+  findings->push_back(
+      Warning("motion.matching", text,
+              are_few(num_tracked + track.num_weak)
+                  ? "slower motion, a higher frame rate, more light or more texture"
+                  : "view more texture, or planes in three directions",
+              Measurement{static_cast<double>(num_tracked) / track.num_images, "ratio"}));
+}
+
 }  // namespace
 
 void AddFrameMotionFindings(const MotionTrack& track, int width, Findings* findings) {
@@ -148,15 +164,7 @@ void AddFrameMotionFindings(const MotionTrack& track, int width, Findings* findi
   for (const MotionImage& image : track.images) {
     if (image.linked) displacements.push_back(image.displacement);
   }
-  const auto num_tracked = static_cast<int>(track.images.size());
-  const double tracked = static_cast<double>(num_tracked) / track.num_images;
-  if (tracked < kMinTrackedRatio) {
-    findings->push_back(
-        Warning("motion.matching",
-                FormatText("only %d of %d images can be tracked", num_tracked, track.num_images),
-                "slower motion, a higher frame rate, more light or more texture",
-                Measurement{tracked, "ratio"}));
-  }
+  AddMatching(track, findings);
   if (displacements.empty()) return;
   const double median = Median(displacements);
   const double high = Quantile(0.9, displacements);

@@ -117,14 +117,16 @@ class MotionTracker {
   }
 
  private:
-  // The images with an estimated pose.
+  // The tracked images.
   void AddResult(const OdometryResult& result, std::map<int64_t, MotionImage>* images) {
     track_.noise_scales.push_back(result.noise_scale);
     const int first_segment = track_.images.empty() ? 0 : track_.images.back().segment + 1;
     bool was_added = false;
     for (const FrameResult& frame : result.frames) {
       const auto found = images->find(frame.id);
-      const bool is_added = IsEstimated(frame.status) && found != images->end();
+      const bool has_image = found != images->end();
+      if (has_image && frame.status == TrackingStatus::kWeak) ++track_.num_weak;
+      const bool is_added = has_image && frame.status == TrackingStatus::kTracked;
       if (is_added) {
         MotionImage& image = found->second;
         image.cam_from_world = frame.cam_from_world;

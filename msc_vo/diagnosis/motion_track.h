@@ -14,7 +14,7 @@
 
 namespace msc_vo {
 
-/// An image whose pose the odometry has estimated.
+/// An image that the odometry has tracked.
 struct MotionImage {
   double timestamp = 0.0;  ///< seconds
   /// Images of one segment have a common world; a segment is one of the odometry.
@@ -37,8 +37,10 @@ struct MotionPair {
 /// Motion of the camera over stretches of a sequence, as the odometry finds it with the given
 /// calibration.
 struct MotionTrack {
-  int num_images = 0;               ///< that the odometry processed
-  std::vector<MotionImage> images;  ///< with an estimated pose, in order of time
+  int num_images = 0;  ///< that the odometry processed
+  /// Images with a weak pose, whose errors may be as large as the motion: they take no part.
+  int num_weak = 0;
+  std::vector<MotionImage> images;  ///< with a tracked pose, in order of time
   /// Pairs with as much rotation as their common view permits, in order of time.
   std::vector<MotionPair> pairs;
   /// What a calibration is estimated from, as of CalibrationRounds: images of each stretch, and

@@ -24,8 +24,10 @@ constexpr int kNumTrackedImages = 60;
 // Wrong ground truth of one recording, whose images are tracked once.
 class GroundTruthTest : public TemporaryFolder {
  protected:
-  void Track(const SyntheticSequenceOptions& options) {
-    const Recording recording = Record(options, kNumTrackedImages);
+  void Track(const SyntheticSequenceOptions& options,
+             const std::function<void(Recording*)>& change = {}) {
+    Recording recording = Record(options, kNumTrackedImages);
+    if (change) change(&recording);
     recording.Write(Folder());
     SequenceIndex index = OpenSequence(Folder());
     const Calibration calibration = ResolveCalibration(CameraSettings(), "", &index);
@@ -119,6 +121,19 @@ TEST_F(GroundTruthTest, FindsAnotherBody) {
     p->world_from_cam = WithBody(p->world_from_cam,
                                  {Eigen::Quaterniond::Identity(), Eigen::Vector3d(0.0, -0.3, 0.0)});
   });
+}
+
+// A blank room, whose walls leave some motions free.
+TEST_F(GroundTruthTest, IsNotBlamedForWeakPoses) {
+  SyntheticSequenceOptions options = SmallRoom();
+  options.scene = SceneKind::kBlank;
+  options.seed = 2;
+  Track(options);
+  EXPECT_GT(track_.num_weak, 5);
+  EXPECT_LE(static_cast<int>(track_.images.size()) + track_.num_weak, kNumTrackedImages);
+  for (const Finding& finding : Diagnose(truth_)) {
+    EXPECT_EQ(finding.severity, Severity::kGood) << finding.check << ": " << Describe(finding);
+  }
 }
 
 }  // namespace

@@ -293,5 +293,39 @@ TEST(GroundTruthFindings, TakeAxesAndMirroringForOneFault) {
   }
 }
 
+// The finding of a check that is not tested.
+std::string NotTested(const MotionTrack& track, const Path& path, const std::string& check) {
+  Findings findings;
+  AddGroundTruthMotionFindings(track, path, {5000.0, false}, true, &findings);
+  return ExpectFinding(findings, Severity::kGood, check, Names("not tested"), check).text;
+}
+
+TEST(GroundTruthFindings, NameTheReasonWhyNothingIsTested) {
+  const Path path = HandHeldPath();
+  MotionTrack track = TrackOf(path);
+  track.images.resize(20);
+  track.pairs.resize(1);
+  track.num_images = 150;
+  track.num_weak = 130;
+  EXPECT_THAT(NotTested(track, path, "ground_truth.convention"),
+              Names("20 of 150", "130", "weak", "1 pairs", "8"));
+  const Path straight = HandHeldPath({0, 0, 0});
+  EXPECT_THAT(NotTested(TrackOf(straight), straight, "ground_truth.convention"),
+              Names("turns too little", "degrees", "1.7"));
+  const Path tripod = HandHeldPath({1, 1, 1}, {0, 0, 0});
+  EXPECT_THAT(NotTested(TrackOf(tripod), tripod, "ground_truth.positions"),
+              Names("moves too little", "0 mm", "30"));
+}
+
+// The rotations of a uniform turn are the same at all times.
+TEST(GroundTruthFindings, HaveNoTimeOffsetThatTheMotionDoesNotDetermine) {
+  Path path = HandHeldPath();
+  for (TimedPose& pose : path) {
+    pose.world_from_cam = Rigid3(ExpSO3(0.3 * pose.timestamp * Eigen::Vector3d(0.1, 1.0, 0.2)),
+                                 pose.world_from_cam.translation());
+  }
+  EXPECT_THAT(NotTested(TrackOf(path), path, "ground_truth.time_offset"), Names("+-", "ms"));
+}
+
 }  // namespace
 }  // namespace msc_vo

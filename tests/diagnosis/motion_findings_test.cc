@@ -13,6 +13,10 @@
 namespace msc_vo {
 namespace {
 
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
 Findings NoiseFindings(const std::vector<NoiseScale>& scales, Findings findings = {}) {
   MotionTrack track;
   track.noise_scales = scales;
@@ -61,6 +65,32 @@ TEST(NoiseFindings, AreNotTestedBeforeTheFirstEstimate) {
 
 TEST(NoiseFindings, LeaveOutScalesThatAreNotEstimated) {
   EXPECT_THAT(NoiseFindings({{0.5, 1.0, 1.0}})[0].text, Names("0.50 to 0.50"));
+}
+
+// Of 100 images, some are tracked and some have a weak pose.
+Findings MatchingFindings(int num_tracked, int num_weak) {
+  MotionTrack track;
+  track.num_images = 100;
+  track.num_weak = num_weak;
+  track.images.resize(num_tracked);
+  Findings findings;
+  AddFrameMotionFindings(track, 640, &findings);
+  return findings;
+}
+
+TEST(MatchingFindings, WarnOfFewTrackedImages) {
+  EXPECT_TRUE(MatchingFindings(80, 0).empty());
+  const Findings lost = MatchingFindings(79, 0);
+  ASSERT_EQ(lost.size(), 1U);
+  EXPECT_THAT(lost[0].text, AllOf(Names("79 of 100"), Not(HasSubstr("weak"))));
+  EXPECT_THAT(lost[0].fix, Names("slower"));
+}
+
+TEST(MatchingFindings, AskForPlanesOrTextureIfPosesAreWeak) {
+  const Findings weak = MatchingFindings(10, 80);
+  ASSERT_EQ(weak.size(), 1U);
+  EXPECT_THAT(weak[0].text, Names("10 of 100", "80", "weak"));
+  EXPECT_THAT(weak[0].fix, AllOf(Names("planes", "texture"), Not(HasSubstr("slower"))));
 }
 
 // Images of a box that moves along the rows with `velocity` (pixels/second) at each image. Depth is

@@ -86,6 +86,25 @@ TEST_F(SequenceCheckTest, CalibrationViewsAreOfOneWorld) {
   EXPECT_THAT(ids, testing::ElementsAre(2, 3, 4));
 }
 
+TEST_F(SequenceCheckTest, CalibrationViewsHaveNoVelocityFromWeakPoses) {
+  OdometryResult result;
+  result.readout_time = 0.02;
+  for (int i = 0; i < 6; ++i) {
+    FrameResult frame;
+    frame.id = i;
+    frame.timestamp = 0.1 * i;
+    frame.status = i == 4 ? TrackingStatus::kWeak : TrackingStatus::kTracked;
+    result.frames.push_back(frame);
+  }
+  const RgbdDecoder decoder(index_, calibration_);
+  std::map<int64_t, bool> has_velocity;
+  for (const CalibrationView& view : MakeCalibrationViews(decoder, FrameBuilderOptions(), result)) {
+    has_velocity[view.frame->id] = view.frame->velocity.has_value();
+  }
+  EXPECT_THAT(has_velocity, testing::ElementsAre(testing::Pair(1, true), testing::Pair(2, true),
+                                                 testing::Pair(3, false)));
+}
+
 TEST_F(SequenceCheckTest, RefusesInvalidOptions) {
   SequenceCheckOptions options;
   options.odometry.features.max_depth = options.odometry.features.min_depth;
