@@ -144,12 +144,12 @@ std::string ColmapImageName(const SequenceIndex& index, const SequenceEntry& ent
 
 void CheckMapExport(const RunExport& arguments) {
   if (arguments.format == "g2o") return CheckFile(arguments, arguments.output, kG2oMark);
-  RefuseSequenceFolder(arguments.output);
   for (const ModelFile& file : arguments.binary ? FormatColmapBinary({}) : FormatColmapText({})) {
     const std::string header = file.content.substr(0, file.content.find('\n'));
     CheckFile(arguments, (fs::path(arguments.output) / file.name).string(),
               arguments.binary ? "" : header);
   }
+  RefuseSequenceFolder(arguments.output);
 }
 
 void WriteMapExport(const RunExport& arguments) {
