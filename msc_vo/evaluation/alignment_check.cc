@@ -70,7 +70,8 @@ double PositionVariance(const Poses& reference, const Poses& estimate) {
 }
 
 std::string Millimetres(double square_metres) {
-  return FormatText("%.3g mm", 1e3 * std::sqrt(std::max(square_metres, 0.0)));
+  const double value = 1e3 * std::sqrt(std::max(square_metres, 0.0));
+  return FormatText(value > 1e3 && value < 1e9 ? "%.0f mm" : "%.3g mm", value);
 }
 
 // Ends of parts of the reference path that have the same length.
@@ -299,9 +300,8 @@ std::string DescribeUndetermined(const Poses& reference, const Poses& estimate, 
   const double error = std::max({squares - 2.0 * scale * moments.common.sum(), kEpsilon * squares,
                                  std::pow(Rounding(reference) + scale * Rounding(estimate), 2.0)});
   if (!(scale * moments.common.sum() > error)) {  // also if the squares overflow
-    const double stated =
-        with_scale ? error : std::max(error, PositionVariance(reference, estimate));
-    return "the error of the positions (" + Millimetres(stated) +
+    const double used = with_scale ? error : std::max(error, PositionVariance(reference, estimate));
+    return "the error of the positions (" + Millimetres(used) +
            ") exceeds the motion that both trajectories share (" +
            Millimetres(scale * moments.common.sum()) + "), which determines no rotation" +
            (with_scale ? " and no scale" : "") + " of the alignment";

@@ -128,6 +128,7 @@ TEST(DescribeUndetermined, StatesTheErrorOfTheAlignment) {
   const double spread = 1e3 * std::sqrt(squares / static_cast<double>(lost.size()));
   const auto error = [&](bool with_scale) {
     const std::string text = DescribeUndetermined(Path(), lost, with_scale);
+    EXPECT_THAT(text, Not(HasSubstr("e+")));  // 26000 mm rather than 2.6e+04 mm
     const size_t begin = text.find('(');
     return begin == std::string::npos ? 0.0 : std::stod(text.substr(begin + 1));
   };
