@@ -18,7 +18,7 @@ namespace {
 
 constexpr char kMagic[8] = {'m', 's', 'c', '_', 'v', 'o', ' ', 's'};
 // Increase it with every change of what is saved.
-constexpr uint64_t kFormat = 32;
+constexpr uint64_t kFormat = 33;
 constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 40;
 
 // The file is this, the state and the contents.

@@ -133,12 +133,16 @@ bool AreSamePlane(const PlaneFeature& feature, const PlaneLandmark& a, const Pla
   return is_near(a.plane, b.extent) && is_near(b.plane, a.extent);
 }
 
-bool DetermineAPose(const std::vector<PlaneFeature>& features) {
+Eigen::Matrix3d FreeTranslations(const std::vector<PlaneFeature>& features) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (const PlaneFeature& feature : features)
     sum += feature.Normal() * feature.Normal().transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(sum, Eigen::EigenvaluesOnly);
-  return eigen.eigenvalues()[0] >= kMinSpan;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(sum);
+  Eigen::Matrix3d projection = Eigen::Matrix3d::Zero();
+  for (int i = 0; i < 3 && eigen.eigenvalues()[i] < kMinSpan; ++i) {
+    projection += eigen.eigenvectors().col(i) * eigen.eigenvectors().col(i).transpose();
+  }
+  return projection;
 }
 
 }  // namespace msc_vo

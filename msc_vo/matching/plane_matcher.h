@@ -30,7 +30,13 @@ PoseCovariance CovarianceForMatching(const Rigid3& cam_from_world, const PoseCov
 bool AreSamePlane(const PlaneFeature& feature, const PlaneLandmark& a, const PlaneLandmark& b,
                   double noise);
 
+/// Projection onto the translations of the camera, in its frame, that planes with these normals
+/// leave free.
+Eigen::Matrix3d FreeTranslations(const std::vector<PlaneFeature>& features);
+
 /// Whether planes with these normals determine a pose: their normals span three directions.
-bool DetermineAPose(const std::vector<PlaneFeature>& features);
+inline bool DetermineAPose(const std::vector<PlaneFeature>& features) {
+  return FreeTranslations(features).isZero();
+}
 
 }  // namespace msc_vo

@@ -62,7 +62,10 @@ bool KeyframePolicy::IsDue(const Frame& frame, const FrameMatches& matches, bool
   seconds_since_keyframe_ += std::min(frame.timestamp - last_frame_time_, kMaxFrameInterval);
   last_frame_time_ = frame.timestamp;
   if (seconds_since_keyframe_ < options_.min_interval) return false;
-  return (certain && seconds_since_keyframe_ >= options_.max_interval) ||
+  // Features that are followed from frame to frame, none of them in the map, are those of a new
+  // part of the scene.
+  const bool is_new = !certain && ratios.all == 0.0;
+  return is_new || (certain && seconds_since_keyframe_ >= options_.max_interval) ||
          ratios.all < options_.min_tracked_ratio * best_.all ||
          ratios.close < options_.min_tracked_ratio * best_.close;
 }

@@ -20,9 +20,39 @@ constexpr double kAccelerationSigma = 3.0, kTurnAccelerationSigma = 6.0;
 // false corners.
 constexpr int kManyFeatures = 5;
 
+// Holds the camera in place, radians and metres: a tenth of what images tell, so that map planes
+// which are not quite parallel do not move it.
+constexpr double kHeldSigma = 1e-4;
+
 PoseCovariance CovarianceOfConstantVelocity(double seconds) {
   const double squared = seconds * seconds;
   return IsotropicCovariance(kTurnAccelerationSigma * squared, kAccelerationSigma * squared);
+}
+
+std::vector<PlaneFeature> MatchedFeatures(const Frame& frame,
+                                          const std::vector<PlaneMatch>& matches) {
+  std::vector<PlaneFeature> matched;
+  for (const PlaneMatch& match : matches) matched.push_back(frame.planes[match.feature]);
+  return matched;
+}
+
+// Projection onto the motions of the camera that planes leave free: rotation vector, translation.
+PoseCovariance FreeMotions(const std::vector<PlaneFeature>& planes) {
+  const Eigen::Matrix3d translations = FreeTranslations(planes);
+  PoseCovariance motions = PoseCovariance::Zero();
+  motions.bottomRightCorner<3, 3>() = translations;
+  // Parallel planes: the turn about their normal, too.
+  const bool are_parallel = translations.trace() > 1.5;
+  if (are_parallel) motions.topLeftCorner<3, 3>() = Eigen::Matrix3d::Identity() - translations;
+  return motions;
+}
+
+// `free`: FreeMotions().
+PoseFactor PriorFactor(const PosePriorBesidePlanes& prior, const PoseCovariance& free) {
+  const PoseCovariance bound = PoseCovariance::Identity() - free;
+  const PoseCovariance covariance = CovarianceOfCamera(
+      prior.cam_from_world, prior.covariance + bound * prior.correctable * bound);
+  return {"motion", PosePrior::CreateShared(prior.cam_from_world, covariance), nullptr};
 }
 
 }  // namespace
@@ -36,10 +66,7 @@ ExpectedPose ExpectPose(const Rigid3& last_from_world, const PoseCovariance& las
   expected.covariance = ComposeCovariances(
       cam_from_last, velocity ? CovarianceOfConstantVelocity(seconds) : CovarianceOfRest(seconds),
       last_from_world, last_covariance);
-  const PoseCovariance of_prior =
-      CovarianceOfCamera(expected.cam_from_world, CovarianceOfRest(undetermined_seconds));
-  expected.prior =
-      PoseFactor{"motion", PosePrior::CreateShared(expected.cam_from_world, of_prior), nullptr};
+  expected.free = CovarianceOfRest(undetermined_seconds);
   return expected;
 }
 
@@ -53,11 +80,19 @@ std::optional<PlanePose> EstimateByPlanes(const TrackerOptions& options, const F
   pose.is_determined = DetermineAPose(frame, pose.planes);
   const int many = kManyFeatures * options.min_initial_features;
   if (!pose.is_determined && NumWithDepth(frame) >= many) return std::nullopt;
+  std::vector<PoseFactor> beside_planes = factors;
+  PoseCovariance free_error = PoseCovariance::Zero();
+  if (expected.free && !pose.is_determined) {
+    const PosePriorBesidePlanes rest{expected.cam_from_world,
+                                     IsotropicCovariance(kHeldSigma, kHeldSigma), *expected.free};
+    const PoseCovariance free = FreeMotions(MatchedFeatures(frame, pose.planes));
+    beside_planes.push_back(PriorFactor(rest, free));
+    free_error = free * rest.correctable * free;
+  }
   const auto estimate = [&](PlanesBeside beside, Rigid3* cam_from_world) {
     std::vector<PoseFactor> all =
         MakePlanePoseFactors(frame.planes, pose.planes, snapshot.planes, beside);
-    all.insert(all.end(), factors.begin(), factors.end());
-    if (expected.prior && !pose.is_determined) all.push_back(*expected.prior);
+    all.insert(all.end(), beside_planes.begin(), beside_planes.end());
     FrameMatches none;
     return EstimateFramePose(options.pose, frame, snapshot.map, snapshot.noise_scale, all,
                              cam_from_world, &none);
@@ -69,14 +104,28 @@ std::optional<PlanePose> EstimateByPlanes(const TrackerOptions& options, const F
   Rigid3 near = pose.cam_from_world;
   const PoseSummary of_truth = estimate(PlanesBeside::kPointsAndLines, &near);
   if (!of_truth.usable) return std::nullopt;
-  pose.summary.covariance = of_truth.covariance;
+  pose.summary.covariance =
+      of_truth.covariance + CovarianceOfCamera(pose.cam_from_world, free_error);
   return pose;
 }
 
+PoseSummary EstimateBesidePlanes(const TrackerOptions& options, const Frame& frame,
+                                 const std::vector<PlaneMatch>& planes, const MapSnapshot& snapshot,
+                                 const PosePriorBesidePlanes& prior, Rigid3* cam_from_world) {
+  const PoseCovariance free = FreeMotions(MatchedFeatures(frame, planes));
+  std::vector<PoseFactor> factors =
+      MakePlanePoseFactors(frame.planes, planes, snapshot.planes, PlanesBeside::kPointsAndLines);
+  factors.push_back(PriorFactor(prior, free));
+  *cam_from_world = prior.cam_from_world;
+  FrameMatches none;
+  PoseSummary summary = EstimateFramePose(options.pose, frame, snapshot.map, snapshot.noise_scale,
+                                          factors, cam_from_world, &none);
+  summary.covariance += CovarianceOfCamera(*cam_from_world, free * prior.correctable * free);
+  return summary;
+}
+
 bool DetermineAPose(const Frame& frame, const std::vector<PlaneMatch>& matches) {
-  std::vector<PlaneFeature> matched;
-  for (const PlaneMatch& match : matches) matched.push_back(frame.planes[match.feature]);
-  return DetermineAPose(matched);
+  return DetermineAPose(MatchedFeatures(frame, matches));
 }
 
 }  // namespace msc_vo

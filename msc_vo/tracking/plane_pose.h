@@ -12,17 +12,27 @@
 
 namespace msc_vo {
 
+/// What is known of a pose beside planes. The covariances are of the camera, in its frame.
+struct PosePriorBesidePlanes {
+  Rigid3 cam_from_world;
+  PoseCovariance covariance = PoseCovariance::Zero();
+  /// Of an independent error that planes may correct. Where they leave the camera free, the pose
+  /// stays, and its covariance contains it.
+  PoseCovariance correctable = PoseCovariance::Zero();
+};
+
 /// What is known of the pose of a frame before its image (not in the paper).
 struct ExpectedPose {
   Rigid3 cam_from_world;
   PoseCovariance covariance = PoseCovariance::Zero();  ///< tangent of Rigid3Manifold
-  /// Holds the pose in the directions that planes leave free; none if custom factors do.
-  std::optional<PoseFactor> prior;
+  /// Of the camera, in its frame, in the directions that planes leave free; none if custom factors
+  /// hold it.
+  std::optional<PoseCovariance> free;
 };
 
 /// The pose behind one of a frame `seconds` before. `velocity`: the motion since then that constant
 /// velocity predicts, if it is known. `undetermined_seconds`: since the last frame whose pose was
-/// certain in all directions; the sigmas of the prior grow with it.
+/// certain in all directions: the sigmas of what planes leave free grow with it.
 ExpectedPose ExpectPose(const Rigid3& last_from_world, const PoseCovariance& last_covariance,
                         double seconds, const std::optional<Rigid3>& velocity,
                         double undetermined_seconds);
@@ -41,6 +51,11 @@ struct PlanePose {
 std::optional<PlanePose> EstimateByPlanes(const TrackerOptions& options, const Frame& frame,
                                           const MapSnapshot& snapshot, const ExpectedPose& expected,
                                           const std::vector<PoseFactor>& factors);
+
+/// The pose by the planes of a frame that are matched, and by what is known beside.
+PoseSummary EstimateBesidePlanes(const TrackerOptions& options, const Frame& frame,
+                                 const std::vector<PlaneMatch>& planes, const MapSnapshot& snapshot,
+                                 const PosePriorBesidePlanes& prior, Rigid3* cam_from_world);
 
 /// Whether the matched planes determine a pose.
 bool DetermineAPose(const Frame& frame, const std::vector<PlaneMatch>& matches);

@@ -3,6 +3,8 @@
 
 #include "msc_vo/tracking/pose_plausibility.h"
 
+#include "msc_vo/geometry/so3.h"
+
 namespace msc_vo {
 
 namespace {
@@ -29,6 +31,19 @@ void PosePlausibility::Observe(double timestamp, const CameraVelocity& velocity,
 
 void PosePlausibility::MarkImplausible(double timestamp) {
   implausible_until_ = timestamp + kImplausibleSeconds;
+}
+
+const PoseCovariance& PosePlausibility::UpdateDoubt(double timestamp, const Rigid3& cam_from_last,
+                                                    const Rigid3& cam_from_predicted) {
+  if (!IsImplausible(timestamp)) {
+    doubt_.setZero();
+  } else if (doubt_.isZero()) {
+    doubt_ = IsotropicCovariance(LogSO3(cam_from_predicted.rotation()).norm(),
+                                 cam_from_predicted.translation().norm());
+  } else {
+    doubt_ = TransportCovariance(cam_from_last, doubt_);
+  }
+  return doubt_;
 }
 
 }  // namespace msc_vo

@@ -7,6 +7,8 @@
 
 #include "msc_vo/geometry/camera_velocity.h"
 #include "msc_vo/geometry/motion_limits.h"
+#include "msc_vo/geometry/pose_covariance.h"
+#include "msc_vo/geometry/rigid3.h"
 
 namespace msc_vo {
 
@@ -35,16 +37,22 @@ class PosePlausibility {
   /// seconds.
   bool IsImplausible(double timestamp) const { return timestamp < implausible_until_; }
 
+  /// Covariance of the camera, in its frame, that an implausible pose has beside its own: the
+  /// camera may be where the first one of these poses was predicted. Call it once for each pose.
+  const PoseCovariance& UpdateDoubt(double timestamp, const Rigid3& cam_from_last,
+                                    const Rigid3& cam_from_predicted);
+
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [limits, implausible_until] = *this;  // all members, or it does not compile
-    archive(limits, implausible_until);
+    auto& [limits, implausible_until, doubt] = *this;  // all members, or it does not compile
+    archive(limits, implausible_until, doubt);
   }
 
  private:
   MotionLimits limits_;
   double implausible_until_ = std::numeric_limits<double>::lowest();  // seconds
+  PoseCovariance doubt_ = PoseCovariance::Zero();
 };
 
 }  // namespace msc_vo

@@ -271,30 +271,55 @@ TrackedFrame Tracker::TrackLocalMap(const Input& input, const FramePose& initial
     return SelectLocalMap(map, *tracked.frame, initial.cam_from_world, initial.matches,
                           ReferenceOrNewest(map, last_.reference), options_.max_local_keyframes);
   });
+  FramePose pose = initial;
+  const PosePriorBesidePlanes prior = PriorOf(input, initial);
+  pose.summary.covariance += CovarianceOfCamera(pose.cam_from_world, prior.correctable);
   if (!input.snapshot.calibration_is_doubted) {
     tracked.planes =
-        MatchPlanes(tracked.frame->planes, input.snapshot.planes, initial.cam_from_world,
-                    CovarianceForMatching(initial.cam_from_world, initial.summary.covariance));
+        MatchPlanes(tracked.frame->planes, input.snapshot.planes, pose.cam_from_world,
+                    CovarianceForMatching(pose.cam_from_world, pose.summary.covariance));
   }
   estimator->AddFactors(MakePlanePoseFactors(tracked.frame->planes, tracked.planes,
                                              input.snapshot.planes, PlanesBeside::kPointsAndLines));
-  std::optional<FramePose> refined =
+  const std::optional<FramePose> refined =
       estimator->MatchAndEstimate(options_.pose, *tracked.frame, local, options_.local_map_radius,
                                   initial.cam_from_world, LandmarkInliers(initial.matches));
-  const bool is_known = refined || DetermineAPose(*tracked.frame, tracked.planes);
-  if (!refined && !tracked.planes.empty()) {
-    refined =
-        estimator->Estimate(options_.pose, *tracked.frame, initial.cam_from_world, initial.matches);
+  if (refined) {
+    pose = *refined;
+  } else if (!tracked.planes.empty()) {
+    CorrectByPlanes(input.snapshot, prior, tracked, &pose);
   }
-  const FramePose& pose = refined ? *refined : initial;
-  tracked.status =
-      refined && is_known ? ClassifyStatus(options_, pose.summary) : TrackingStatus::kWeak;
+  const bool is_known = refined || DetermineAPose(*tracked.frame, tracked.planes);
+  tracked.status = is_known ? ClassifyStatus(options_, pose.summary) : TrackingStatus::kWeak;
   tracked.pose = WithDynamicObjects(pose.summary, initial.summary);
   tracked.matches = LandmarkInliers(pose.matches);
   tracked.visible = IdsOf(local);
   SetPose(map, pose.cam_from_world, local.reference, &tracked);
   tracked.cam_from_last = tracked.cam_from_world * input.last_from_world.Inverse();
   return tracked;
+}
+
+PosePriorBesidePlanes Tracker::PriorOf(const Input& input, const FramePose& pose) const {
+  const Rigid3& cam_from_world = pose.cam_from_world;
+  PosePriorBesidePlanes prior{cam_from_world,
+                              CameraCovariance(cam_from_world, pose.summary.covariance)};
+  const PerKind<int> num_landmarks = SizesOf(LandmarkInliers(pose.matches));
+  const bool is_in_map = input.prediction.by_factors.usable ||
+                         NumMatches(options_, *input.frame, num_landmarks) >= options_.min_matches;
+  if (is_in_map) return prior;
+  const Rigid3 cam_from_last = cam_from_world * input.last_from_world.Inverse();
+  prior.correctable = TransportCovariance(cam_from_last, last_covariance_);
+  return prior;
+}
+
+void Tracker::CorrectByPlanes(const MapSnapshot& snapshot, const PosePriorBesidePlanes& prior,
+                              const TrackedFrame& tracked, FramePose* pose) const {
+  Rigid3 cam_from_world;
+  const PoseSummary corrected = EstimateBesidePlanes(options_, *tracked.frame, tracked.planes,
+                                                     snapshot, prior, &cam_from_world);
+  if (!corrected.usable) return;
+  pose->cam_from_world = cam_from_world;
+  pose->summary.covariance = corrected.covariance;
 }
 
 void Tracker::ConfirmStatus(const Input& input, PoseOrigin origin, TrackedFrame* tracked) {
@@ -310,6 +335,11 @@ void Tracker::ConfirmStatus(const Input& input, PoseOrigin origin, TrackedFrame*
   }
   tracked->is_implausible = plausibility_.IsImplausible(timestamp);
   if (tracked->is_implausible) tracked->status = TrackingStatus::kWeak;
+  const Rigid3& cam_from_world = tracked->cam_from_world;
+  const PoseCovariance& doubt =
+      plausibility_.UpdateDoubt(timestamp, *tracked->cam_from_last,
+                                cam_from_world * input.prediction.cam_from_world.Inverse());
+  tracked->pose.covariance += CovarianceOfCamera(cam_from_world, doubt);
 }
 
 KeyframeProposal Tracker::ProposeKeyframe(const Input& input, const TrackedFrame& tracked,

@@ -110,6 +110,12 @@ class Tracker {
   // has too few landmarks.
   TrackedFrame TrackLocalMap(const Input& input, const FramePose& initial,
                              PoseEstimator* estimator) const;
+  // An initial pose with too few landmarks rests on other features of the last frame, whose own
+  // error it inherits.
+  PosePriorBesidePlanes PriorOf(const Input& input, const FramePose& initial) const;
+  // Corrects such a pose by the planes of the frame.
+  void CorrectByPlanes(const MapSnapshot& snapshot, const PosePriorBesidePlanes& prior,
+                       const TrackedFrame& tracked, FramePose* pose) const;
   // Makes a tracked frame kWeak and implausible if its pose, or one of the last five seconds,
   // follows a gap, and is weak, takes an implausible motion, or contradicts the depth images.
   void ConfirmStatus(const Input& input, PoseOrigin origin, TrackedFrame* tracked);

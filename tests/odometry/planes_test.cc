@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
 #include "tests/support/rendered_images.h"
+#include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
 #include "msc_vo/checkpoint/binary_reader.h"
 #include "msc_vo/checkpoint/binary_writer.h"
+#include "msc_vo/factors/rigid3_manifold.h"
 #include "msc_vo/geometry/so3.h"
 
 namespace msc_vo {
@@ -141,6 +144,39 @@ TEST_F(PlanesTest, GiveTheSamePosesAtAnyNumberOfThreadsAndAfterACheckpoint) {
     EXPECT_EQ(parallel.frames[i].cam_from_world.params, expected.frames[i].cam_from_world.params);
     EXPECT_EQ(continued.frames[i].cam_from_world.params, expected.frames[i].cam_from_world.params);
   }
+}
+
+// A blank wall comes before a poster: the images that show it begin at a pose that the wall left
+// free, and are mapped there.
+TEST(PosterTest, IsMappedWhereTheWallHasLeftTheCamera) {
+  SyntheticSequenceOptions options;
+  options.scene = SceneKind::kPoster;
+  options.width = 320;
+  options.height = 240;
+  options.depth = SyntheticDepth::kStructuredLight;
+  constexpr int kNumImages = 120;
+  const SyntheticSequence sequence(options);
+  Odometry odometry({}, sequence.camera(), LensDistortion());
+  for (const RgbdImage& image : RenderImages(options, kNumImages)) odometry.Process(image);
+  const OdometryResult result = odometry.Finish();
+  const auto first = std::find_if(result.frames.begin(), result.frames.end(),
+                                  [](const auto& frame) { return IsEstimated(frame.status); });
+  ASSERT_NE(first, result.frames.end());
+  int num_tracked = 0;
+  for (auto frame = first; frame != result.frames.end(); ++frame) {
+    if (!IsEstimated(frame->status) || frame == first) continue;
+    num_tracked += frame->status == TrackingStatus::kTracked;
+    const Rigid3 truth = sequence.PoseAt(static_cast<int>(frame->id)).world_from_cam.Inverse() *
+                         sequence.PoseAt(static_cast<int>(first->id)).world_from_cam;
+    const Rigid3 expected = truth * first->cam_from_world;
+    Eigen::Matrix<double, 6, 1> error;
+    Rigid3Manifold().Minus(frame->cam_from_world.params.data(), expected.params.data(),
+                           error.data());
+    constexpr double kMaxChiSquare = 16.81;  // 99 % quantile with six degrees of freedom
+    EXPECT_LT(error.dot(frame->world_covariance->ldlt().solve(error)), kMaxChiSquare)
+        << "image " << frame->id;
+  }
+  EXPECT_GE(num_tracked, 0.8 * static_cast<double>(result.frames.end() - first));
 }
 
 // The depth camera has its own light.

@@ -17,7 +17,8 @@ KeyframePolicy PolicyAfterKeyframe(const KeyframePolicyOptions& options, double 
 
 // Tests a frame at time `timestamp` with `num` points at a depth of two metres, of which the first
 // `tracked` are matched.
-bool IsDue(KeyframePolicy* policy, int num, int tracked, double timestamp = 0.5) {
+bool IsDue(KeyframePolicy* policy, int num, int tracked, double timestamp = 0.5,
+           bool certain = true) {
   Frame frame;
   frame.timestamp = timestamp;
   frame.points.resize(num);
@@ -27,7 +28,7 @@ bool IsDue(KeyframePolicy* policy, int num, int tracked, double timestamp = 0.5)
   }
   FrameMatches matches;
   for (int i = 0; i < tracked; ++i) matches.points.push_back({i, i, Eigen::Vector3d::Zero(), true});
-  return policy->IsDue(frame, matches, true);
+  return policy->IsDue(frame, matches, certain);
 }
 
 TEST(KeyframePolicy, IsDueWhenTheTrackedRatioFalls) {
@@ -43,6 +44,15 @@ TEST(KeyframePolicy, IsNotDueForFewFeaturesAlone) {
   EXPECT_FALSE(IsDue(&policy, 1000, 600));
   EXPECT_FALSE(IsDue(&policy, 25, 15));
   EXPECT_FALSE(IsDue(&policy, 0, 0));
+}
+
+// Its features are followed from frame to frame, and the last keyframe shows none of them.
+TEST(KeyframePolicy, IsDueWhereNothingIsInTheMap) {
+  KeyframePolicy policy = PolicyAfterKeyframe({});
+  EXPECT_FALSE(IsDue(&policy, 100, 0, 0.03, false));
+  EXPECT_TRUE(IsDue(&policy, 100, 0, 0.06, false));
+  EXPECT_FALSE(IsDue(&policy, 100, 1, 0.09, false));
+  EXPECT_FALSE(IsDue(&policy, 0, 0, 0.12, false));
 }
 
 // The number of the first frame after a keyframe at `start` that is due, at `fps` frames per

@@ -73,6 +73,18 @@ TEST(PosePlausibility, RemembersContradictionsByDepth) {
   EXPECT_FALSE(plausibility.IsImplausible(7.1));
 }
 
+// The camera may be where the first implausible pose was predicted.
+TEST(PosePlausibility, DoubtsImplausiblePoses) {
+  PosePlausibility plausibility = SlowCamera();
+  const Rigid3 jump(ExpSO3({0.0, 0.9, 0.0}), {1.5, 0.0, 0.0}), rest;
+  EXPECT_TRUE(plausibility.UpdateDoubt(1.9, rest, jump).isZero());
+  plausibility.MarkImplausible(2.0);
+  EXPECT_TRUE(plausibility.UpdateDoubt(2.0, jump, jump).isApprox(IsotropicCovariance(0.9, 1.5)));
+  const Rigid3 turn(ExpSO3({0.0, 0.5, 0.0}), {0.0, 0.0, 0.0});
+  EXPECT_TRUE(plausibility.UpdateDoubt(2.1, turn, rest).isApprox(IsotropicCovariance(0.9, 1.5)));
+  EXPECT_TRUE(plausibility.UpdateDoubt(7.1, rest, rest).isZero());
+}
+
 TEST(PosePlausibility, BelievesSlowMotionsAfterRest) {
   PosePlausibility plausibility;  // at rest so far
   plausibility.Observe(2.0, {{0.0, 0.8, 0.0}, {0.4, 0.0, 0.0}}, PoseOrigin::kAfterGap);
