@@ -13,6 +13,7 @@
 #include "apps/cli/configuration_arguments.h"
 #include "apps/cli/sequence_arguments.h"
 #include "msc_vo/diagnosis/sequence_check.h"
+#include "msc_vo/text/enum_names.h"
 
 namespace msc_vo {
 
@@ -27,15 +28,7 @@ struct CheckArguments {
 };
 
 const char* Label(Severity severity) {
-  switch (severity) {
-    case Severity::kGood:
-      return "ok       ";
-    case Severity::kWarning:
-      return "warning  ";
-    case Severity::kError:
-      return "ERROR    ";
-  }
-  return "";
+  return EnumName<Severity::kError>(severity, {"ok       ", "warning  ", "ERROR    "});
 }
 
 std::ptrdiff_t Count(const Findings& findings, Severity severity) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "msc_vo/datasets/median_interval.h"
+#include "msc_vo/text/enum_names.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
@@ -38,35 +39,14 @@ TimeUnit GuessOwnUnit(const std::vector<double>& stamps, double max_interval) {
 }  // namespace
 
 const char* ToString(TimeUnit unit) {
-  switch (unit) {
-    case TimeUnit::kSeconds:
-      return "seconds";
-    case TimeUnit::kMilliseconds:
-      return "milliseconds";
-    case TimeUnit::kMicroseconds:
-      return "microseconds";
-    case TimeUnit::kNanoseconds:
-      return "nanoseconds";
-    case TimeUnit::kHundredNanoseconds:
-      return "units of 100 nanoseconds";
-  }
-  return "unknown";
+  return EnumName<TimeUnit::kHundredNanoseconds>(
+      unit, {"seconds", "milliseconds", "microseconds", "nanoseconds", "units of 100 nanoseconds"});
 }
 
 double UnitsPerSecond(TimeUnit unit) {
-  switch (unit) {
-    case TimeUnit::kSeconds:
-      return 1.0;
-    case TimeUnit::kMilliseconds:
-      return 1e3;
-    case TimeUnit::kMicroseconds:
-      return 1e6;
-    case TimeUnit::kNanoseconds:
-      return 1e9;
-    case TimeUnit::kHundredNanoseconds:
-      return 1e7;
-  }
-  return 1.0;
+  constexpr double kRates[] = {1.0, 1e3, 1e6, 1e9, 1e7};
+  static_assert(std::size(kRates) == static_cast<size_t>(TimeUnit::kHundredNanoseconds) + 1);
+  return kRates[static_cast<size_t>(unit)];
 }
 
 TimeRange RangeOf(const std::vector<double>& seconds, TimeUnit unit) {

@@ -4,7 +4,6 @@
 #include "msc_vo/datasets/trajectory_format.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
@@ -14,6 +13,7 @@
 #include "msc_vo/datasets/pose_table.h"
 #include "msc_vo/datasets/stamp_precision.h"
 #include "msc_vo/text/ending.h"
+#include "msc_vo/text/enum_names.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
 
@@ -21,8 +21,6 @@ namespace msc_vo {
 
 namespace {
 
-constexpr std::array<TrajectoryFormat, 3> kTrajectoryFormats = {
-    TrajectoryFormat::kTum, TrajectoryFormat::kKitti, TrajectoryFormat::kEuroc};
 constexpr size_t kRowsFields = 12, kMatrixFields = 16;  // of a 4x4 matrix
 
 // A time stamp stands before the matrix.
@@ -187,28 +185,13 @@ constexpr char kSegmentFormat[] = "segment %d, world %d";
 }  // namespace
 
 const char* ToString(TrajectoryFormat format) {
-  switch (format) {
-    case TrajectoryFormat::kTum:
-      return "tum";
-    case TrajectoryFormat::kKitti:
-      return "kitti";
-    case TrajectoryFormat::kEuroc:
-      return "euroc";
-  }
-  return "unknown";
+  return EnumName<TrajectoryFormat::kEuroc>(format, {"tum", "kitti", "euroc"});
 }
 
-std::vector<std::string> TrajectoryFormatNames() {
-  std::vector<std::string> names;
-  for (const TrajectoryFormat format : kTrajectoryFormats) names.emplace_back(ToString(format));
-  return names;
-}
+std::vector<std::string> TrajectoryFormatNames() { return EnumNames<TrajectoryFormat::kEuroc>(); }
 
 std::optional<TrajectoryFormat> TrajectoryFormatFromName(const std::string& name) {
-  for (const TrajectoryFormat format : kTrajectoryFormats) {
-    if (name == ToString(format)) return format;
-  }
-  return std::nullopt;
+  return EnumFromName<TrajectoryFormat::kEuroc>(name);
 }
 
 std::string TrajectoryFile::DescribeLeftOut() const {

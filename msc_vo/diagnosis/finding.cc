@@ -3,6 +3,8 @@
 
 #include "msc_vo/diagnosis/finding.h"
 
+#include "msc_vo/text/enum_names.h"
+
 namespace msc_vo {
 
 namespace {
@@ -39,15 +41,7 @@ Finding Error(const std::string& check, const std::string& text, const std::stri
 }
 
 const char* ToString(Severity severity) {
-  switch (severity) {
-    case Severity::kGood:
-      return "ok";
-    case Severity::kWarning:
-      return "warning";
-    case Severity::kError:
-      return "error";
-  }
-  return "";
+  return EnumName<Severity::kError>(severity, {"ok", "warning", "error"});
 }
 
 std::string Describe(const Finding& finding) {

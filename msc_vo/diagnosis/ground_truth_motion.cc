@@ -14,6 +14,7 @@
 
 #include "msc_vo/diagnosis/quantile.h"
 #include "msc_vo/geometry/so3.h"
+#include "msc_vo/text/enum_names.h"
 
 namespace msc_vo {
 
@@ -140,17 +141,10 @@ double TurnCost(const std::vector<double>& errors, double scale) {
 }  // namespace
 
 const char* Describe(PoseConvention convention) {
-  switch (convention) {
-    case PoseConvention::kCameraInWorld:
-      return "poses of the camera in the world";
-    case PoseConvention::kWorldInCamera:
-      return "inverse poses, world in camera";
-    case PoseConvention::kInverseRotation:
-      return "positions of the camera with rotations from world to camera";
-    case PoseConvention::kScalarFirst:
-      return "poses with quaternions in the order w x y z";
-  }
-  return "";
+  return EnumName<PoseConvention::kScalarFirst>(
+      convention, {"poses of the camera in the world", "inverse poses, world in camera",
+                   "positions of the camera with rotations from world to camera",
+                   "poses with quaternions in the order w x y z"});
 }
 
 std::optional<Rigid3> InterpolatePose(const std::vector<TimedPose>& poses, double timestamp) {

@@ -8,6 +8,7 @@
 #include "msc_vo/diagnosis/edge_alignment.h"
 #include "msc_vo/diagnosis/quantile.h"
 #include "msc_vo/diagnosis/sequence_findings.h"
+#include "msc_vo/text/enum_names.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
@@ -32,17 +33,9 @@ constexpr double kMaxDelay = 0.02;
 constexpr double kMirroredGain = 1.5;
 
 const char* Name(Mirroring mirroring) {
-  switch (mirroring) {
-    case Mirroring::kHorizontal:
-      return "mirrored left to right";
-    case Mirroring::kVertical:
-      return "mirrored top to bottom";
-    case Mirroring::kBoth:
-      return "rotated by 180 degrees";
-    case Mirroring::kNone:
-      break;
-  }
-  return "not mirrored";
+  return EnumName<Mirroring::kBoth>(
+      mirroring, {"not mirrored", "mirrored left to right", "mirrored top to bottom",
+                  "rotated by 180 degrees"});
 }
 
 double MinPeak(int num_distinct_edges) {

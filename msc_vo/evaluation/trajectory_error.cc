@@ -12,6 +12,7 @@
 #include "msc_vo/evaluation/association.h"
 #include "msc_vo/geometry/rigid_alignment.h"
 #include "msc_vo/geometry/so3.h"
+#include "msc_vo/text/enum_names.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
@@ -267,24 +268,11 @@ void MeasureCoverage(const std::vector<TimedPose>& reference,
 }  // namespace
 
 const char* ToString(Alignment alignment) {
-  switch (alignment) {
-    case Alignment::kSe3:
-      return "se3";
-    case Alignment::kSim3:
-      return "sim3";
-    case Alignment::kOrigin:
-      return "origin";
-    case Alignment::kNone:
-      return "none";
-  }
-  return "unknown";
+  return EnumName<Alignment::kNone>(alignment, {"se3", "sim3", "origin", "none"});
 }
 
 Alignment AlignmentFromString(const std::string& name) {
-  for (const Alignment alignment :
-       {Alignment::kSe3, Alignment::kSim3, Alignment::kOrigin, Alignment::kNone}) {
-    if (name == ToString(alignment)) return alignment;
-  }
+  if (const auto alignment = EnumFromName<Alignment::kNone>(name)) return *alignment;
   throw std::invalid_argument("the alignment must be se3, sim3, origin or none, not '" + name +
                               "'");
 }

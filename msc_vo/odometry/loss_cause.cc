@@ -3,6 +3,8 @@
 
 #include "msc_vo/odometry/loss_cause.h"
 
+#include "msc_vo/text/enum_names.h"
+
 namespace msc_vo {
 
 namespace {
@@ -25,39 +27,17 @@ std::optional<LossCause> FindLossCause(const FrameResult& frame, int min_feature
 }
 
 const char* Describe(LossCause cause) {
-  switch (cause) {
-    case LossCause::kUniformImage:
-      return "black or uniform";
-    case LossCause::kFewFeatures:
-      return "with too few points and lines";
-    case LossCause::kNoDepth:
-      return "without depth";
-    case LossCause::kDepthOutOfRange:
-      return "with too few depths in range (is depth_scale right?)";
-    case LossCause::kNoMatch:
-      return "not fitting the map (fast or jerky motion, blur, or a wrong camera?)";
-    case LossCause::kImplausible:
-      return "after a gap, whose place is uncertain";
-  }
-  return "unknown";
+  return EnumName<LossCause::kImplausible>(
+      cause, {"black or uniform", "with too few points and lines", "without depth",
+              "with too few depths in range (is depth_scale right?)",
+              "not fitting the map (fast or jerky motion, blur, or a wrong camera?)",
+              "after a gap, whose place is uncertain"});
 }
 
 const char* ToString(LossCause cause) {
-  switch (cause) {
-    case LossCause::kUniformImage:
-      return "uniform_image";
-    case LossCause::kFewFeatures:
-      return "few_features";
-    case LossCause::kNoDepth:
-      return "no_depth";
-    case LossCause::kDepthOutOfRange:
-      return "depth_out_of_range";
-    case LossCause::kNoMatch:
-      return "no_match";
-    case LossCause::kImplausible:
-      return "implausible";
-  }
-  return "unknown";
+  return EnumName<LossCause::kImplausible>(
+      cause, {"uniform_image", "few_features", "no_depth", "depth_out_of_range", "no_match",
+              "implausible"});
 }
 
 }  // namespace msc_vo

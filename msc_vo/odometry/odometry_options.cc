@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "msc_vo/odometry/option.h"
+#include "msc_vo/text/enum_names.h"
 
 namespace msc_vo {
 
@@ -78,15 +79,7 @@ const char* UnlistedError(const OdometryOptions& options) {
 }  // namespace
 
 const char* ToString(Mode mode) {
-  switch (mode) {
-    case Mode::kPlVo:
-      return "pl-vo";
-    case Mode::kPlVoDepth:
-      return "pl-vo-depth";
-    case Mode::kMscVo:
-      return "msc-vo";
-  }
-  return "unknown";
+  return EnumName<Mode::kMscVo>(mode, {"pl-vo", "pl-vo-depth", "msc-vo"});
 }
 
 bool OdometryOptions::IsValid(std::string* error) const {

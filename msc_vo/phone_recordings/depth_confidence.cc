@@ -6,25 +6,16 @@
 #include <cstdint>
 #include <stdexcept>
 
+#include "msc_vo/text/enum_names.h"
+
 namespace msc_vo {
 
 const char* ToString(DepthConfidence confidence) {
-  switch (confidence) {
-    case DepthConfidence::kLow:
-      return "low";
-    case DepthConfidence::kMedium:
-      return "medium";
-    case DepthConfidence::kHigh:
-      return "high";
-  }
-  return "";
+  return EnumName<DepthConfidence::kHigh>(confidence, {"low", "medium", "high"});
 }
 
 DepthConfidence DepthConfidenceFromName(const std::string& name) {
-  for (const DepthConfidence confidence :
-       {DepthConfidence::kLow, DepthConfidence::kMedium, DepthConfidence::kHigh}) {
-    if (name == ToString(confidence)) return confidence;
-  }
+  if (const auto confidence = EnumFromName<DepthConfidence::kHigh>(name)) return *confidence;
   throw std::invalid_argument("unknown confidence '" + name + "'; known: low, medium, high");
 }
 

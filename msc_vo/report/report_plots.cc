@@ -11,6 +11,7 @@
 #include "msc_vo/report/html_text.h"
 #include "msc_vo/report/report_statistics.h"
 #include "msc_vo/report/svg_plot.h"
+#include "msc_vo/text/enum_names.h"
 
 namespace msc_vo {
 namespace {
@@ -131,21 +132,8 @@ SvgPlot MakeTrajectoryPlot(const TrajectoryDrawing& drawing) {
 }  // namespace
 
 const char* ToString(ReportStatus status) {
-  switch (status) {
-    case ReportStatus::kTracked:
-      return "tracked";
-    case ReportStatus::kWeak:
-      return "weak";
-    case ReportStatus::kDropped:
-      return "dropped";
-    case ReportStatus::kUnreadable:
-      return "unreadable";
-    case ReportStatus::kPredicted:
-      return "predicted";
-    case ReportStatus::kLost:
-      return "lost";
-  }
-  return "unknown";
+  return EnumName<ReportStatus::kLost>(
+      status, {"tracked", "weak", "dropped", "unreadable", "predicted", "lost"});
 }
 
 std::string LineClass(int axis) {

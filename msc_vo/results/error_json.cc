@@ -5,6 +5,7 @@
 
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/results/internal/json_value.h"
+#include "msc_vo/text/enum_names.h"
 
 namespace msc_vo {
 
@@ -44,15 +45,7 @@ Json ToJson(const RelativeError& error, const RelativeDelta& delta) {
 }  // namespace
 
 const char* ToString(DeltaUnit unit) {
-  switch (unit) {
-    case DeltaUnit::kFrames:
-      return "frames";
-    case DeltaUnit::kMetres:
-      return "metres";
-    case DeltaUnit::kSeconds:
-      return "seconds";
-  }
-  return "unknown";
+  return EnumName<DeltaUnit::kSeconds>(unit, {"frames", "metres", "seconds"});
 }
 
 std::string FormatErrorJson(const TrajectoryError& error, const SkippedRows& skipped,

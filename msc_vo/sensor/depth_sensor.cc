@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "msc_vo/camera/image_scale.h"
+#include "msc_vo/text/enum_names.h"
 
 namespace msc_vo {
 
@@ -49,19 +50,8 @@ void MakeLidar(double scale, DepthSensorModel* model) {
 }  // namespace
 
 const char* ToString(DepthSensor sensor) {
-  switch (sensor) {
-    case DepthSensor::kAuto:
-      return "auto";
-    case DepthSensor::kStructuredLight:
-      return "structured-light";
-    case DepthSensor::kTimeOfFlight:
-      return "tof";
-    case DepthSensor::kStereo:
-      return "stereo";
-    case DepthSensor::kLidar:
-      return "lidar";
-  }
-  return "unknown";
+  return EnumName<DepthSensor::kLidar>(sensor,
+                                       {"auto", "structured-light", "tof", "stereo", "lidar"});
 }
 
 DepthSensorModel MakeDepthSensorModel(DepthSensor sensor, const SensorNoiseOptions& options,

@@ -8,6 +8,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "msc_vo/text/enum_names.h"
+
 namespace msc_vo {
 
 namespace {
@@ -28,15 +30,7 @@ constexpr double kMaxCorrection = DegreesToRadians(4.0);
 }  // namespace
 
 const char* ToString(AxesState state) {
-  switch (state) {
-    case AxesState::kNone:
-      return "none";
-    case AxesState::kCoarse:
-      return "coarse";
-    case AxesState::kRefined:
-      return "refined";
-  }
-  throw std::invalid_argument("ToString: not an AxesState");
+  return EnumName<AxesState::kRefined>(state, {"none", "coarse", "refined"});
 }
 
 void AxesEstimator::Propose(const Eigen::Quaterniond& world_from_axes) {

@@ -3,24 +3,13 @@
 
 #include "msc_vo/tracking/tracking_status.h"
 
+#include "msc_vo/text/enum_names.h"
+
 namespace msc_vo {
 
 const char* ToString(TrackingStatus status) {
-  switch (status) {
-    case TrackingStatus::kTracked:
-      return "tracked";
-    case TrackingStatus::kWeak:
-      return "weak";
-    case TrackingStatus::kPredicted:
-      return "predicted";
-    case TrackingStatus::kLost:
-      return "lost";
-    case TrackingStatus::kDropped:
-      return "dropped";
-    case TrackingStatus::kUnreadable:
-      return "unreadable";
-  }
-  return "unknown";
+  return EnumName<TrackingStatus::kUnreadable>(
+      status, {"tracked", "weak", "predicted", "lost", "dropped", "unreadable"});
 }
 
 bool IsEstimated(TrackingStatus status) {

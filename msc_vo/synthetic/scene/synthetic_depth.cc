@@ -3,47 +3,21 @@
 
 #include "msc_vo/synthetic/scene/synthetic_depth.h"
 
+#include "msc_vo/text/enum_names.h"
+
 namespace msc_vo {
 
-namespace {
-
-constexpr SyntheticDepth kAll[] = {SyntheticDepth::kExact,        SyntheticDepth::kStructuredLight,
-                                   SyntheticDepth::kTimeOfFlight, SyntheticDepth::kStereo,
-                                   SyntheticDepth::kLidar,        SyntheticDepth::kIclNuim};
-
-}  // namespace
-
 const char* ToString(SyntheticDepth depth) {
-  switch (depth) {
-    case SyntheticDepth::kExact:
-      return "exact";
-    case SyntheticDepth::kStructuredLight:
-      return "structured-light";
-    case SyntheticDepth::kTimeOfFlight:
-      return "tof";
-    case SyntheticDepth::kStereo:
-      return "stereo";
-    case SyntheticDepth::kLidar:
-      return "lidar";
-    case SyntheticDepth::kIclNuim:
-      return "icl-nuim";
-  }
-  return "unknown";
+  return EnumName<SyntheticDepth::kIclNuim>(
+      depth, {"exact", "structured-light", "tof", "stereo", "lidar", "icl-nuim"});
 }
 
 std::optional<SyntheticDepth> SyntheticDepthFromName(const std::string& name) {
-  for (const SyntheticDepth depth : kAll) {
-    if (name == ToString(depth)) return depth;
-  }
   if (name == "none") return SyntheticDepth::kExact;
   if (name == "kinect") return SyntheticDepth::kStructuredLight;
-  return std::nullopt;
+  return EnumFromName<SyntheticDepth::kIclNuim>(name);
 }
 
-std::vector<std::string> SyntheticDepthNames() {
-  std::vector<std::string> names;
-  for (const SyntheticDepth depth : kAll) names.emplace_back(ToString(depth));
-  return names;
-}
+std::vector<std::string> SyntheticDepthNames() { return EnumNames<SyntheticDepth::kIclNuim>(); }
 
 }  // namespace msc_vo
