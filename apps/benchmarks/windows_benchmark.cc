@@ -28,6 +28,7 @@
 
 #include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
 #include "msc_vo/factors/relative_pose.h"
+#include "msc_vo/geometry/quantile.h"
 #include "msc_vo/recording/window_file.h"
 #include "msc_vo/synthetic/window/synthetic_window.h"
 #include "msc_vo/timing/stopwatch.h"
@@ -231,11 +232,6 @@ void AddRelativePoses(WindowData* data) {
   }
 }
 
-double Median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
-}
-
 // Returns the milliseconds of one solve.
 double MillisecondsOf(const BundleAdjustmentOptions& options, WindowData data) {
   const Stopwatch stopwatch;
@@ -254,9 +250,9 @@ void Compare(benchmark::State& state, const NamedWindow& window) {
     times_without.push_back(MillisecondsOf(options, without));
     times_with.push_back(MillisecondsOf(options, with));
   }
-  state.counters["without_ms"] = Median(times_without);
-  state.counters["with_ms"] = Median(times_with);
-  state.counters["ratio"] = Median(times_with) / Median(times_without);
+  state.counters["without_ms"] = UpperMedian(times_without);
+  state.counters["with_ms"] = UpperMedian(times_with);
+  state.counters["ratio"] = UpperMedian(times_with) / UpperMedian(times_without);
 }
 
 void Register(const WindowPtr& window) {

@@ -7,10 +7,12 @@
 #include <cmath>
 #include <filesystem>
 #include <stdexcept>
+#include <utility>
 
 #include <Eigen/LU>
 
 #include "msc_vo/datasets/stamp_precision.h"
+#include "msc_vo/geometry/quantile.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
@@ -55,13 +57,12 @@ void ToSeconds(const TimeRange& images, std::vector<TimedAcceleration>* readings
 void CheckGravity(const std::string& path, const std::vector<TimedAcceleration>& readings) {
   std::vector<double> lengths;
   for (const TimedAcceleration& reading : readings) lengths.push_back(reading.acceleration.norm());
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  if (std::abs(*middle - kGravity) <= kMaxGravityDeviation * kGravity) return;
+  const double median = UpperMedian(std::move(lengths));
+  if (std::abs(median - kGravity) <= kMaxGravityDeviation * kGravity) return;
   throw std::runtime_error(
       path + FormatText(": the median length of the readings is %.3g instead of 9.81; convert them "
                         "to metres/second^2 with gravity included",
-                        *middle));
+                        median));
 }
 
 // Unit vector of "x", "-x", "y", ...; zero if the name is none of these.

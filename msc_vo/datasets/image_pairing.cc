@@ -10,6 +10,7 @@
 
 #include "msc_vo/datasets/median_interval.h"
 #include "msc_vo/evaluation/association.h"
+#include "msc_vo/geometry/quantile.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
@@ -20,12 +21,6 @@ std::vector<double> StampsOf(const std::vector<ListedImage>& images) {
   std::vector<double> stamps;
   for (const ListedImage& image : images) stamps.push_back(image.stamp);
   return stamps;
-}
-
-double MedianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // `delay`: seconds from the colour image to the depth image.
@@ -103,7 +98,7 @@ void PairByRow(const ImageLists& images, SequenceIndex* index) {
   }
   const bool same_clock = !agreeing.empty() && 4 * agreeing.size() >= num_rows;
   // The delay of a sensor may scatter about the limit.
-  const double usual = same_clock ? MedianOf(agreeing) : 0.0;
+  const double usual = same_clock ? UpperMedian(agreeing) : 0.0;
   std::vector<size_t> apart;  // rows
   for (size_t i = 0; i < num_rows; ++i) {
     const bool is_apart = std::abs(delay(i) - usual) > max_difference + kRounding;

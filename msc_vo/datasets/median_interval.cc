@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
+
+#include "msc_vo/geometry/quantile.h"
 
 namespace msc_vo {
 
@@ -13,9 +16,7 @@ double MedianInterval(std::vector<double> stamps) {
   std::sort(stamps.begin(), stamps.end());
   std::vector<double> intervals;
   for (size_t i = 1; i < stamps.size(); ++i) intervals.push_back(stamps[i] - stamps[i - 1]);
-  const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
-  std::nth_element(intervals.begin(), middle, intervals.end());
-  return *middle;
+  return UpperMedian(std::move(intervals));
 }
 
 }  // namespace msc_vo

@@ -16,6 +16,7 @@
 #include "msc_vo/datasets/clipped_depth_search.h"
 #include "msc_vo/datasets/image_masks.h"
 #include "msc_vo/datasets/image_size_fit.h"
+#include "msc_vo/geometry/quantile.h"
 #include "msc_vo/image_files/image_file.h"
 #include "msc_vo/sensor/image_mask.h"
 #include "msc_vo/text/files.h"
@@ -117,10 +118,7 @@ double MedianMeasured(const cv::Mat& metres) {
       if (z > 0.0f) values.push_back(z);
     }
   }
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return values.empty() ? 0.0 : UpperMedian(std::move(values));
 }
 
 void CheckFloatDepth(const cv::Mat& metres, const SequenceEntry& entry) {

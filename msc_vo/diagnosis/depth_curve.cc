@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "msc_vo/diagnosis/quantile.h"
+#include "msc_vo/geometry/quantile.h"
 
 namespace msc_vo {
 

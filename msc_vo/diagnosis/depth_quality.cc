@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "msc_vo/diagnosis/quantile.h"
+#include "msc_vo/geometry/quantile.h"
 #include "msc_vo/sensor/usable_depth.h"
 #include "msc_vo/text/format_text.h"
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "msc_vo/diagnosis/quantile.h"
+#include "msc_vo/geometry/quantile.h"
 #include "msc_vo/sensor/depth_edges.h"
 
 namespace msc_vo {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "msc_vo/diagnosis/depth_quality.h"
 #include "msc_vo/diagnosis/ground_truth_motion.h"
@@ -12,6 +13,7 @@
 #include "msc_vo/diagnosis/motion_track.h"
 #include "msc_vo/diagnosis/sequence_findings.h"
 #include "msc_vo/geometry/angles.h"
+#include "msc_vo/geometry/quantile.h"
 #include "msc_vo/geometry/timed_pose.h"
 #include "msc_vo/text/format_text.h"
 
@@ -68,8 +70,7 @@ class GroundTruthComparison {
   static double MedianRotation(const std::vector<MotionComparison>& comparisons) {
     std::vector<double> rotations;
     for (const MotionComparison& c : comparisons) rotations.push_back(c.image_rotation.norm());
-    std::nth_element(rotations.begin(), rotations.begin() + rotations.size() / 2, rotations.end());
-    return rotations[rotations.size() / 2];
+    return UpperMedian(std::move(rotations));
   }
 
   // Adds the finding on the convention. Returns whether a reading agrees with the images.

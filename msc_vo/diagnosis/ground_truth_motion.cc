@@ -12,7 +12,7 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
-#include "msc_vo/diagnosis/quantile.h"
+#include "msc_vo/geometry/quantile.h"
 #include "msc_vo/geometry/so3.h"
 #include "msc_vo/text/enum_names.h"
 

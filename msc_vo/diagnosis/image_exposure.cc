@@ -10,7 +10,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "msc_vo/diagnosis/quantile.h"
+#include "msc_vo/geometry/quantile.h"
 #include "msc_vo/odometry/loss_cause.h"
 #include "msc_vo/text/format_text.h"
 

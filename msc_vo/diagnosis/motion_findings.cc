@@ -10,8 +10,8 @@
 #include <Eigen/Core>
 
 #include "msc_vo/diagnosis/motion_track.h"
-#include "msc_vo/diagnosis/quantile.h"
 #include "msc_vo/diagnosis/sequence_findings.h"
+#include "msc_vo/geometry/quantile.h"
 #include "msc_vo/self_calibration/noise_estimator.h"
 #include "msc_vo/text/format_text.h"
 

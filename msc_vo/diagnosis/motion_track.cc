@@ -12,7 +12,7 @@
 
 #include "msc_vo/datasets/rgbd_source.h"
 #include "msc_vo/diagnosis/calibration_views.h"
-#include "msc_vo/diagnosis/quantile.h"
+#include "msc_vo/geometry/quantile.h"
 #include "msc_vo/geometry/so3.h"
 #include "msc_vo/odometry/odometry.h"
 #include "msc_vo/self_calibration/self_calibrating_bundle_adjustment.h"

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "msc_vo/diagnosis/edge_alignment.h"
-#include "msc_vo/diagnosis/quantile.h"
 #include "msc_vo/diagnosis/sequence_findings.h"
+#include "msc_vo/geometry/quantile.h"
 #include "msc_vo/text/enum_names.h"
 #include "msc_vo/text/format_text.h"
 

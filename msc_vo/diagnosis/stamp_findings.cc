@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "msc_vo/datasets/sequence.h"
-#include "msc_vo/diagnosis/quantile.h"
 #include "msc_vo/diagnosis/sequence_findings.h"
 #include "msc_vo/evaluation/association.h"
 #include "msc_vo/evaluation/trajectory_error.h"
+#include "msc_vo/geometry/quantile.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <string>
 
-#include "msc_vo/diagnosis/quantile.h"
+#include "msc_vo/geometry/quantile.h"
 #include "msc_vo/matching/plane_matcher.h"
 #include "msc_vo/text/format_text.h"
 

@@ -13,6 +13,7 @@
 
 #include "msc_vo/factors/plane_manifold.h"
 #include "msc_vo/factors/plane_observation.h"
+#include "msc_vo/geometry/quantile.h"
 #include "msc_vo/matching/plane_matcher.h"
 #include "msc_vo/pose_estimation/plane_factors.h"
 
@@ -277,9 +278,7 @@ void PlaneMap::Learn(const Map& map, const WindowData& window) {
     for (const double square : of_plane) squares.push_back(square * count / (count - 1.0));
   }
   if (squares.size() < kMinResiduals) return;
-  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
-  std::nth_element(squares.begin(), middle, squares.end());
-  const double of_window = std::sqrt(*middle / kMedianChiSquare3);
+  const double of_window = std::sqrt(UpperMedian(std::move(squares)) / kMedianChiSquare3);
   noise_ =
       std::clamp((1.0 - kLearningRate) * noise_ + kLearningRate * of_window, kMinNoise, kMaxNoise);
 }

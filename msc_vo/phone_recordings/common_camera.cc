@@ -11,6 +11,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "msc_vo/datasets/image_size_fit.h"
+#include "msc_vo/geometry/quantile.h"
 
 namespace msc_vo {
 
@@ -19,9 +20,7 @@ namespace {
 double Median(const std::vector<PinholeCamera>& cameras, double PinholeCamera::*value) {
   std::vector<double> values;
   for (const PinholeCamera& camera : cameras) values.push_back(camera.*value);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return UpperMedian(std::move(values));
 }
 
 // Position in the image of `from` of the ray through a pixel of `to`, one coordinate.

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "msc_vo/geometry/quantile.h"
+
 namespace msc_vo {
 
 namespace {
@@ -43,9 +45,7 @@ double MedianChiSquareRatio(std::vector<double> chi2) {
   constexpr size_t kMinValues = 10;
   constexpr double kChiSquareMedian2 = 1.386;
   if (chi2.size() < kMinValues) return 1.0;
-  const auto middle = chi2.begin() + static_cast<std::ptrdiff_t>(chi2.size() / 2);
-  std::nth_element(chi2.begin(), middle, chi2.end());
-  return *middle / kChiSquareMedian2;
+  return UpperMedian(std::move(chi2)) / kChiSquareMedian2;
 }
 
 PoseInlierMask AllInFront(const PoseOptions& options, const PoseData& data, const Rigid3& pose) {

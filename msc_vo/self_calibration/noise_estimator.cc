@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "msc_vo/geometry/quantile.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
@@ -117,9 +118,7 @@ double RobustDeviation(const Residuals& residuals) {
   std::vector<double> sizes;
   sizes.reserve(residuals.size());
   for (const Residual& residual : residuals) sizes.push_back(std::abs(residual.value));
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return *middle / kNormalMedian;
+  return UpperMedian(std::move(sizes)) / kNormalMedian;
 }
 
 double SumExpected(const Residuals& residuals) {

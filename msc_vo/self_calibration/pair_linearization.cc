@@ -12,6 +12,7 @@
 #include "msc_vo/factors/camera_factor.h"
 #include "msc_vo/factors/chi_square.h"
 #include "msc_vo/factors/robust_loss.h"
+#include "msc_vo/geometry/quantile.h"
 #include "msc_vo/geometry/so3.h"
 #include "msc_vo/self_calibration/linearized_camera.h"
 #include "msc_vo/sensor/sensor_noise.h"
@@ -108,12 +109,6 @@ Eigen::Vector3d RayForWeights(const CorrectedCamera& camera, const Eigen::Vector
   if (!camera.distortion().IsCropped()) return camera.camera().Ray(pixel);
   const SensorCorrection::Vector none = SensorCorrection::Vector::Zero();
   return camera.Ray<double>(pixel, none.data()).homogeneous();
-}
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // A pair of images at a given correction. The points are weighted at the first pose.
@@ -240,7 +235,7 @@ class PairProblem {
     for (const Rows& rows : rows_) {
       if (rows.is_defined) sigmas.push_back(rows.sigmas);
     }
-    return sigmas.empty() ? 1.0 : std::max(1.0, Median(std::move(sigmas)) / kMedianSigmas);
+    return sigmas.empty() ? 1.0 : std::max(1.0, UpperMedian(std::move(sigmas)) / kMedianSigmas);
   }
 
   LinearizedCamera camera_;
@@ -267,7 +262,7 @@ CalibrationInformation Marginalize(const NormalEquations& equations,
 double MedianVariance(const std::vector<CalibrationPoint>& points) {
   std::vector<double> variances;
   for (const CalibrationPoint& point : points) variances.push_back(point.pixel_variance);
-  return Median(std::move(variances));
+  return UpperMedian(std::move(variances));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -14,6 +15,7 @@
 #include "msc_vo/factors/chi_square.h"
 #include "msc_vo/factors/robust_loss.h"
 #include "msc_vo/frame/rolling_shutter.h"
+#include "msc_vo/geometry/quantile.h"
 #include "msc_vo/geometry/so3.h"
 #include "msc_vo/matching/point_matcher.h"
 #include "msc_vo/self_calibration/pair_view.h"
@@ -153,9 +155,7 @@ class PairProblem {
     std::vector<double> sigmas(residuals_.size());
     std::transform(residuals_.begin(), residuals_.end(), sigmas.begin(),
                    [](const Residual& residual) { return residual.Sigmas(); });
-    const auto middle = sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2);
-    std::nth_element(sigmas.begin(), middle, sigmas.end());
-    return *middle;
+    return UpperMedian(std::move(sigmas));
   }
 
   const Frame& from_;

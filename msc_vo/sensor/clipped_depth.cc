@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
+
+#include "msc_vo/geometry/quantile.h"
 
 namespace msc_vo {
 
@@ -56,12 +59,6 @@ double AreaOf(float value, const cv::Mat& depth, size_t num_samples) {
   return static_cast<double>(count) / static_cast<double>(num_samples);
 }
 
-float Median(std::vector<float>* values) {
-  const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
-  std::nth_element(values->begin(), middle, values->end());
-  return *middle;
-}
-
 // The rounding of the values next to the extreme one.
 struct Rounding {
   float step = 0.0f;       // usual distance between them; 0: there are too few
@@ -87,8 +84,8 @@ Rounding RoundingNextTo(float extreme, std::vector<float> samples, int sign) {
     ++counts.back();
   }
   if (steps.size() < 2) return rounding;
-  rounding.step = Median(&steps);
-  rounding.num_samples = static_cast<size_t>(Median(&counts));
+  rounding.step = UpperMedian(std::move(steps));
+  rounding.num_samples = static_cast<size_t>(UpperMedian(std::move(counts)));
   return rounding;
 }
 
@@ -100,7 +97,7 @@ float MotionBetween(const std::vector<float>& a, const std::vector<float>& b, fl
     if (a[i] <= 0.0f || b[i] <= 0.0f || a[i] == extreme || b[i] == extreme) continue;
     changes.push_back(std::abs(a[i] - b[i]) * std::min(1.0f, extreme / b[i]));
   }
-  return changes.size() < kMinCommon ? 0.0f : Median(&changes);
+  return changes.size() < kMinCommon ? 0.0f : UpperMedian(std::move(changes));
 }
 
 }  // namespace

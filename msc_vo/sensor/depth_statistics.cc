@@ -7,7 +7,10 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
+
+#include "msc_vo/geometry/quantile.h"
 
 namespace msc_vo {
 
@@ -64,20 +67,11 @@ std::vector<Difference> SecondDifferences(const cv::Mat& depth, int lag) {
   return differences;
 }
 
-// Quantile of the values, which are reordered.
-double Quantile(std::vector<float>* values, double ratio) {
-  if (values->empty()) return 0.0;
-  const auto place = values->begin() +
-                     static_cast<std::ptrdiff_t>(ratio * static_cast<double>(values->size() - 1));
-  std::nth_element(values->begin(), place, values->end());
-  return *place;
-}
-
 double NoiseOf(const std::vector<Difference>& differences) {
   std::vector<float> values;
   values.reserve(differences.size());
   for (const Difference& difference : differences) values.push_back(difference.value);
-  return Quantile(&values, 0.25) / (kNormalQuartile * kSecondDifference);
+  return Quantile(0.25, std::move(values)) / (kNormalQuartile * kSecondDifference);
 }
 
 // Median over the samples of the farther half of the distance from their value to the next larger
@@ -86,9 +80,8 @@ double StepOf(const std::vector<Difference>& differences) {
   std::vector<float> depths;
   depths.reserve(differences.size());
   for (const Difference& difference : differences) depths.push_back(difference.z);
-  std::vector<float> sorted = depths;
-  const double middle = Quantile(&sorted, 0.5);
-  sorted.clear();
+  const double middle = Median(depths);
+  std::vector<float> sorted;
   const size_t stride = std::max<size_t>(1, depths.size() / kMaxLevels);
   for (size_t i = 0; i < depths.size(); i += stride) {
     if (depths[i] >= middle) sorted.push_back(1.0f / depths[i]);
@@ -100,7 +93,7 @@ double StepOf(const std::vector<Difference>& differences) {
     if (i + 1 < sorted.size() && sorted[i + 1] > sorted[i]) next = sorted[i + 1];
     if (next > 0.0f) steps.push_back(next - sorted[i]);
   }
-  return Quantile(&steps, 0.5);
+  return Median(std::move(steps));
 }
 
 // Median of the slopes, in logarithms, between bins of the nearest samples; `ratio` of them are
@@ -115,7 +108,7 @@ std::optional<double> ExponentOf(std::vector<Difference> differences, double rat
     const size_t begin = used * bin / kNumBins, end = used * (bin + 1) / kNumBins;
     for (size_t i = begin; i < end; ++i) values.push_back(differences[i].value);
     depths[bin] = differences[(begin + end) / 2].z;
-    const double sigma = Quantile(&values, 0.25) / (kNormalQuartile * kSecondDifference);
+    const double sigma = Quantile(0.25, std::move(values)) / (kNormalQuartile * kSecondDifference);
     sigmas[bin] = sigma * depths[bin] * depths[bin];
   }
   if (depths.back() < kMinDepthRange * depths.front()) return std::nullopt;
@@ -128,7 +121,7 @@ std::optional<double> ExponentOf(std::vector<Difference> differences, double rat
     }
   }
   if (slopes.empty()) return std::nullopt;
-  return Quantile(&slopes, 0.5);
+  return Median(std::move(slopes));
 }
 
 bool IsCorrelated(const DepthStatistics& statistics) {

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "msc_vo/geometry/angles.h"
+#include "msc_vo/geometry/quantile.h"
 #include "msc_vo/map/path_covariance.h"
 #include "msc_vo/matching/local_map.h"
 #include "msc_vo/pose_estimation/relocalizer.h"
@@ -67,10 +69,7 @@ double MedianDepth(const Frame& frame) {
   for (const PointFeature& point : frame.points) {
     if (point.inverse_depth > 0.0) depths.push_back(1.0 / point.inverse_depth);
   }
-  if (depths.empty()) return 0.0;
-  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-  std::nth_element(depths.begin(), middle, depths.end());
-  return *middle;
+  return depths.empty() ? 0.0 : UpperMedian(std::move(depths));
 }
 
 // Covariance of the pose of a frame relative to a keyframe, apart from the landmarks that it was
