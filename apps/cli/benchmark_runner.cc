@@ -13,6 +13,7 @@
 #include "apps/cli/command_log.h"
 #include "apps/cli/input_check.h"
 #include "apps/cli/run_files.h"
+#include "msc_vo/geometry/erase_if.h"
 #include "msc_vo/results/benchmark_index.h"
 #include "msc_vo/results/benchmark_json.h"
 #include "msc_vo/results/result_files.h"
@@ -216,11 +217,9 @@ void BenchmarkRunner::RunMode(const RgbdDecoder& decoder, const Configuration& c
 // write them.
 void BenchmarkRunner::Record(BenchmarkRun row) {
   std::vector<BenchmarkRun>& runs = benchmark_->runs;
-  runs.erase(std::remove_if(runs.begin(), runs.end(),
-                            [&row](const BenchmarkRun& run) {
-                              return run.sequence == row.sequence && run.mode == row.mode;
-                            }),
-             runs.end());
+  EraseIf(&runs, [&row](const BenchmarkRun& run) {
+    return run.sequence == row.sequence && run.mode == row.mode;
+  });
   runs.push_back(std::move(row));
   SortRuns(benchmark_);
   problem_.clear();

@@ -10,6 +10,7 @@
 #include "apps/cli/command_log.h"
 #include "msc_vo/datasets/trajectory.h"
 #include "msc_vo/evaluation/association.h"
+#include "msc_vo/geometry/erase_if.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
@@ -36,9 +37,7 @@ void KeepLargestWorld(const std::string& path, std::vector<TimedPose>* poses) {
       std::max_element(num_poses.begin(), num_poses.end(),
                        [](const auto& a, const auto& b) { return a.second < b.second; });
   const size_t num_all = poses->size();
-  poses->erase(std::remove_if(poses->begin(), poses->end(),
-                              [&](const TimedPose& pose) { return pose.world != largest->first; }),
-               poses->end());
+  EraseIf(poses, [&](const TimedPose& pose) { return pose.world != largest->first; });
   PrintWarning(
       FormatText("%s: the segments of the run are not all joined; %zu of %zu poses are in the "
                  "world of segment %d and are used",

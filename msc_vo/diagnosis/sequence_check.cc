@@ -22,6 +22,7 @@
 #include "msc_vo/diagnosis/sequence_findings.h"
 #include "msc_vo/diagnosis/texture.h"
 #include "msc_vo/features/frame_builder.h"
+#include "msc_vo/geometry/erase_if.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
@@ -248,10 +249,7 @@ Findings CheckSequenceQuickly(const RgbdDecoder& decoder) {
   AddRegistrationFindings(sample.alignments, calibration.camera.width, &findings);
   AddGroundTruthStampFindings(index, &findings);
   NameReference(index, &findings);
-  findings.erase(
-      std::remove_if(findings.begin(), findings.end(),
-                     [](const Finding& finding) { return finding.severity == Severity::kGood; }),
-      findings.end());
+  EraseIf(&findings, [](const Finding& finding) { return finding.severity == Severity::kGood; });
   for (Finding& finding : findings) {
     if (!StopsRun(finding)) finding.severity = Severity::kWarning;
   }

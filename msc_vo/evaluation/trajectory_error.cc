@@ -10,6 +10,7 @@
 
 #include "msc_vo/evaluation/alignment_check.h"
 #include "msc_vo/evaluation/association.h"
+#include "msc_vo/geometry/erase_if.h"
 #include "msc_vo/geometry/rigid_alignment.h"
 #include "msc_vo/geometry/so3.h"
 #include "msc_vo/text/enum_names.h"
@@ -45,9 +46,7 @@ std::vector<double> Stamps(const std::vector<TimedPose>& poses) {
 std::vector<TimedPose> SelectCompared(std::vector<TimedPose> estimate,
                                       const EvaluationOptions& options) {
   if (!options.all_poses) {
-    estimate.erase(std::remove_if(estimate.begin(), estimate.end(),
-                                  [](const TimedPose& pose) { return !pose.is_estimated; }),
-                   estimate.end());
+    EraseIf(&estimate, [](const TimedPose& pose) { return !pose.is_estimated; });
   }
   return SortedByTime(std::move(estimate));
 }

@@ -14,6 +14,7 @@
 
 #include "msc_vo/camera/image_scale.h"
 #include "msc_vo/camera/lens_validity.h"
+#include "msc_vo/geometry/erase_if.h"
 
 namespace msc_vo {
 
@@ -327,9 +328,7 @@ std::vector<int> PlaneExtractor::Grow(int seed, Cell* region) {
   // The plane has moved since its first cells joined.
   for (int round = 0; round < kTrimRounds; ++round) {
     const Vector3d plane = region->inverse_depth;
-    cells.erase(std::remove_if(cells.begin(), cells.end(),
-                               [&](int index) { return !LiesOn(cells_[index], plane); }),
-                cells.end());
+    EraseIf(&cells, [&](int index) { return !LiesOn(cells_[index], plane); });
     *region = Cell();
     for (const int index : cells) region->Add(cells_[index]);
     if (cells.empty()) break;

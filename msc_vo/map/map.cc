@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "msc_vo/geometry/erase_if.h"
 #include "msc_vo/map/observer_count.h"
 
 namespace msc_vo {
@@ -189,10 +190,7 @@ std::vector<Map::Covisible> Map::FindCovisible(KeyframeId keyframe) const {
     }
   });
   std::vector<Covisible> covisible = observers.Ranked();
-  covisible.erase(
-      std::remove_if(covisible.begin(), covisible.end(),
-                     [&](const Covisible& other) { return other.keyframe == keyframe; }),
-      covisible.end());
+  EraseIf(&covisible, [&](const Covisible& other) { return other.keyframe == keyframe; });
   return covisible;
 }
 

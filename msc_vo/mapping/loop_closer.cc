@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "msc_vo/factors/chi_square.h"
+#include "msc_vo/geometry/erase_if.h"
 #include "msc_vo/map/map_alignment.h"
 #include "msc_vo/mapping/map_correction.h"
 
@@ -42,10 +43,7 @@ void LoopCloser::AddKeyframe(const Map& map, KeyframeId keyframe, KeyframeId ref
 
 void LoopCloser::AddRevisit(const KeyframeRevisit& visit) {
   const KeyframeId oldest = visit.keyframe - kMaxAge;
-  visits_.erase(
-      std::remove_if(visits_.begin(), visits_.end(),
-                     [oldest](const KeyframeRevisit& other) { return other.keyframe < oldest; }),
-      visits_.end());
+  EraseIf(&visits_, [oldest](const KeyframeRevisit& other) { return other.keyframe < oldest; });
   AddRecent(visit, &visits_);
 }
 
@@ -89,12 +87,10 @@ std::optional<PoseGraph> LoopCloser::Correct(const Map& map,
 }
 
 std::optional<LoopClosure> LoopCloser::TryClose(Map* map) {
-  visits_.erase(std::remove_if(visits_.begin(), visits_.end(),
-                               [map](const KeyframeRevisit& visit) {
-                                 return map->FindKeyframe(visit.keyframe) == nullptr ||
-                                        map->FindKeyframe(visit.revisit.reference) == nullptr;
-                               }),
-                visits_.end());
+  EraseIf(&visits_, [map](const KeyframeRevisit& visit) {
+    return map->FindKeyframe(visit.keyframe) == nullptr ||
+           map->FindKeyframe(visit.revisit.reference) == nullptr;
+  });
   const std::vector<KeyframeRevisit> visits = AgreeingVisits(*map);
   if (visits.empty()) return std::nullopt;
   const auto refuse = [this] {

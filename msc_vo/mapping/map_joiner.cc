@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "msc_vo/factors/chi_square.h"
+#include "msc_vo/geometry/erase_if.h"
 #include "msc_vo/geometry/motion_limits.h"
 #include "msc_vo/mapping/map_correction.h"
 #include "msc_vo/structure/axis_association.h"
@@ -93,10 +94,8 @@ void MapJoiner::Forget(const std::vector<KeyframeRevisit>& keyframes,
   for (size_t i = 0; i < keyframes.size(); ++i) {
     if (!forgotten[i]) continue;
     const KeyframeId id = keyframes[i].keyframe;
-    common_keyframes_.erase(
-        std::remove_if(common_keyframes_.begin(), common_keyframes_.end(),
-                       [id](const KeyframeRevisit& common) { return common.keyframe == id; }),
-        common_keyframes_.end());
+    EraseIf(&common_keyframes_,
+            [id](const KeyframeRevisit& common) { return common.keyframe == id; });
   }
 }
 
@@ -146,11 +145,9 @@ std::optional<MapJoin> MapJoiner::TryJoin(Atlas* atlas) {
     if (!alignment->inliers[i] || map->FindKeyframe(keyframe) == nullptr) continue;
     MergeMatches(keyframe, in_both[i].revisit.matches, map);
   }
-  common_keyframes_.erase(std::remove_if(common_keyframes_.begin(), common_keyframes_.end(),
-                                         [map](const KeyframeRevisit& common) {
-                                           return map->KnowsKeyframe(common.revisit.reference);
-                                         }),
-                          common_keyframes_.end());
+  EraseIf(&common_keyframes_, [map](const KeyframeRevisit& common) {
+    return map->KnowsKeyframe(common.revisit.reference);
+  });
   return join;
 }
 

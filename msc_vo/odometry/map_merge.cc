@@ -8,6 +8,7 @@
 #include <memory>
 #include <utility>
 
+#include "msc_vo/geometry/erase_if.h"
 #include "msc_vo/map/map_renumbering.h"
 #include "msc_vo/mapping/atlas.h"
 #include "msc_vo/mapping/culling.h"
@@ -28,11 +29,8 @@ namespace {
 constexpr double kSearchSeconds = 6.0 / 30.0;
 
 void RemoveEmptySubMaps(MapContents* contents) {
-  std::vector<SavedSubMap>& submaps = contents->submaps;
-  submaps.erase(
-      std::remove_if(submaps.begin(), submaps.end(),
-                     [](const SavedSubMap& submap) { return submap.map.keyframes().empty(); }),
-      submaps.end());
+  EraseIf(&contents->submaps,
+          [](const SavedSubMap& submap) { return submap.map.keyframes().empty(); });
 }
 
 // The landmarks that a keyframe observes, without their geometry.

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "msc_vo/geometry/erase_if.h"
+
 namespace msc_vo {
 namespace {
 
@@ -20,9 +22,7 @@ double Quantile(const std::vector<double>& sorted, double q) {
 }  // namespace
 
 StageTimeStatistics SummarizeStage(const std::string& name, std::vector<double> milliseconds) {
-  milliseconds.erase(std::remove_if(milliseconds.begin(), milliseconds.end(),
-                                    [](double ms) { return !std::isfinite(ms); }),
-                     milliseconds.end());
+  EraseIf(&milliseconds, [](double ms) { return !std::isfinite(ms); });
   StageTimeStatistics statistics;
   statistics.name = name;
   if (milliseconds.empty()) return statistics;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "msc_vo/geometry/cell_index.h"
+#include "msc_vo/geometry/erase_if.h"
 #include "msc_vo/report/html_text.h"
 
 namespace msc_vo {
@@ -79,9 +80,7 @@ void Include(double value, PlotRange* range) {
 }
 
 void IncludeMost(std::vector<double> values, double cut, PlotRange* range) {
-  values.erase(std::remove_if(values.begin(), values.end(),
-                              [](double value) { return !std::isfinite(value); }),
-               values.end());
+  EraseIf(&values, [](double value) { return !std::isfinite(value); });
   if (values.empty()) return;
   std::sort(values.begin(), values.end());
   const auto num_cut = static_cast<size_t>(cut * static_cast<double>(values.size()));

@@ -10,6 +10,7 @@
 
 #include <libdeflate.h>
 
+#include "msc_vo/geometry/erase_if.h"
 #include "msc_vo/ros_bag/decompression.h"
 #include "msc_vo/ros_bag/little_endian_fields.h"
 #include "msc_vo/ros_bag/mcap_format.h"
@@ -147,9 +148,7 @@ void McapFile::ForgetLastIndex() {
   if (chunks_.empty()) return;
   chunks_.back().is_indexed = false;
   const int last = static_cast<int>(chunks_.size()) - 1;
-  messages_.erase(std::remove_if(messages_.begin(), messages_.end(),
-                                 [&](const McapMessage& m) { return m.chunk == last; }),
-                  messages_.end());
+  EraseIf(&messages_, [&](const McapMessage& m) { return m.chunk == last; });
 }
 
 void McapFile::ReadUnindexedChunks() {

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "msc_vo/geometry/erase_if.h"
 #include "msc_vo/text/ending.h"
 
 namespace msc_vo {
@@ -41,9 +42,7 @@ size_t CommonElements(const std::string& a, const std::string& b) {
 template <typename Fits, typename Penalty>
 std::vector<ImageTopic> Rank(std::vector<ImageTopic> topics, const Fits& fits,
                              const Penalty& penalty) {
-  topics.erase(std::remove_if(topics.begin(), topics.end(),
-                              [&](const ImageTopic& topic) { return !fits(topic); }),
-               topics.end());
+  EraseIf(&topics, [&](const ImageTopic& topic) { return !fits(topic); });
   std::stable_sort(topics.begin(), topics.end(), [&](const ImageTopic& a, const ImageTopic& b) {
     return penalty(a) < penalty(b);
   });

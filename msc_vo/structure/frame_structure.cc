@@ -9,6 +9,7 @@
 
 #include "msc_vo/bundle_adjustment/validation.h"
 #include "msc_vo/geometry/angles.h"
+#include "msc_vo/geometry/erase_if.h"
 #include "msc_vo/structure/frame_structure_factors.h"
 #include "msc_vo/structure/internal/partner_selection.h"
 
@@ -153,10 +154,7 @@ void FindPairs(const FrameStructureOptions& options, const std::vector<LineDirec
     return n.num_unrelated / (unrelated_ratio * n.num_certain);
   };
   const auto erase_if = [](std::vector<Candidate>* pairs, const auto& is_chance) {
-    pairs->erase(std::remove_if(
-                     pairs->begin(), pairs->end(),
-                     [&](const Candidate& pair) { return is_chance(pair.i) || is_chance(pair.j); }),
-                 pairs->end());
+    EraseIf(pairs, [&](const Candidate& pair) { return is_chance(pair.i) || is_chance(pair.j); });
   };
   erase_if(parallel, [&](int line) {
     const RelationCounts& n = counts[line];

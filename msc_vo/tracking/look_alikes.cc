@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "msc_vo/geometry/erase_if.h"
 #include "msc_vo/map/free_space.h"
 #include "msc_vo/map/map_alignment.h"
 #include "msc_vo/map/path_covariance.h"
@@ -38,8 +39,7 @@ LocalMap LandmarksWithDepth(const Map& map, const Frame& frame, const Rigid3& ca
   };
   ForEachLandmarkKind([&](auto kind) {
     auto& candidates = local.Of<typename decltype(kind)::Landmark>();
-    candidates.erase(std::remove_if(candidates.begin(), candidates.end(), is_hidden),
-                     candidates.end());
+    EraseIf(&candidates, is_hidden);
   });
   return local;
 }
@@ -115,13 +115,10 @@ bool LookAlikes::AreExcluded(const TrackerOptions& options, const TrackedFrame& 
 }
 
 void LookAlikes::Update(const MapSnapshot& snapshot) {
-  alignments_.erase(std::remove_if(alignments_.begin(), alignments_.end(),
-                                   [&snapshot](const Alignment& alignment) {
-                                     return !snapshot.map.KnowsKeyframe(alignment.own) ||
-                                            FindMapOf(snapshot.inactive_maps, alignment.other) ==
-                                                nullptr;
-                                   }),
-                    alignments_.end());
+  EraseIf(&alignments_, [&snapshot](const Alignment& alignment) {
+    return !snapshot.map.KnowsKeyframe(alignment.own) ||
+           FindMapOf(snapshot.inactive_maps, alignment.other) == nullptr;
+  });
 }
 
 std::vector<bool> LookAlikes::AreSame(const TrackedFrame& tracked, const MapSnapshot& snapshot,
