@@ -15,6 +15,22 @@ namespace {
 
 using Eigen::Vector2d;
 
+struct Model {
+  LensModel model;
+  const char* name;
+  std::vector<std::string> coefficients;
+};
+
+// In the order of LensModel.
+const std::vector<Model>& Models() {
+  static const auto* const models = new std::vector<Model>{
+      {LensModel::kRadialTangential, "radial-tangential", {"k1", "k2", "p1", "p2", "k3"}},
+      {LensModel::kRational, "rational", {"k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6"}},
+      {LensModel::kFisheye, "fisheye", {"k1", "k2", "k3", "k4"}},
+  };
+  return *models;
+}
+
 constexpr int kMaxSteps = 100;
 // A fixed-point step that leaves a larger fraction of the residual is replaced by a Newton step.
 constexpr double kMaxResidualRatio = 0.75;
@@ -97,6 +113,37 @@ Vector2d UndistortFisheye(const LensDistortion& lens, const Vector2d& x_d) {
 }
 
 }  // namespace
+
+const char* LensModelName(LensModel model) { return Models()[static_cast<size_t>(model)].name; }
+
+std::optional<LensModel> LensModelFromName(const std::string& name) {
+  for (const Model& model : Models()) {
+    if (model.name == name) return model.model;
+  }
+  return std::nullopt;
+}
+
+std::string LensModelNames() {
+  std::string names;
+  for (const Model& model : Models()) {
+    if (!names.empty()) names += ", ";
+    names += model.name;
+  }
+  return names;
+}
+
+const std::vector<std::string>& LensCoefficientNames(LensModel model) {
+  return Models()[static_cast<size_t>(model)].coefficients;
+}
+
+std::string LensCoefficientList(LensModel model) {
+  std::string list;
+  for (const std::string& name : LensCoefficientNames(model)) {
+    if (!list.empty()) list += " ";
+    list += name;
+  }
+  return list;
+}
 
 Vector2d LensDistortion::DistortNormalized(const Vector2d& x) const {
   const double r2 = x.squaredNorm();

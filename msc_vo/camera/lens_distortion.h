@@ -5,14 +5,36 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "msc_vo/camera/lens_model.h"
 #include "msc_vo/camera/pinhole_camera.h"
 
 namespace msc_vo {
+
+/// Models of lens distortion, with the equations and the coefficients of OpenCV.
+enum class LensModel {
+  kRadialTangential,  ///< Brown-Conrady: k1 k2 p1 p2 k3
+  kRational,          ///< Brown-Conrady over a second polynomial: k1 k2 p1 p2 k3 k4 k5 k6
+  kFisheye,           ///< equidistant, Kannala-Brandt: k1 k2 k3 k4
+};
+
+/// "radial-tangential", "rational" or "fisheye".
+const char* LensModelName(LensModel model);
+
+/// Returns the model of this name; std::nullopt for any other name.
+std::optional<LensModel> LensModelFromName(const std::string& name);
+
+/// "radial-tangential, rational, fisheye", for messages.
+std::string LensModelNames();
+
+/// Names of the coefficients in OpenCV's order: {"k1", "k2", "p1", "p2", "k3"}.
+const std::vector<std::string>& LensCoefficientNames(LensModel model);
+
+/// "k1 k2 p1 p2 k3", for messages.
+std::string LensCoefficientList(LensModel model);
 
 /// Lens distortion of OpenCV's models: a map x -> x_d of the plane z = 1, with r = |x|.
 ///
