@@ -12,9 +12,8 @@
 #include "msc_vo/camera/pinhole_camera.h"
 #include "msc_vo/geometry/rigid3.h"
 #include "msc_vo/map/landmark_kinds.h"
-#include "msc_vo/pose_estimation/line_pose_match.h"
-#include "msc_vo/pose_estimation/point_pose_match.h"
 #include "msc_vo/pose_estimation/pose_factor.h"
+#include "msc_vo/pose_estimation/pose_match.h"
 
 namespace msc_vo {
 
