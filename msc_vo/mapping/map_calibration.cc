@@ -6,8 +6,7 @@
 #include <utility>
 
 #include "msc_vo/frame/frame_intrinsics.h"
-#include "msc_vo/self_calibration/keyframe_intrinsics.h"
-#include "msc_vo/self_calibration/keyframe_rolling_shutter.h"
+#include "msc_vo/self_calibration/keyframe_frames.h"
 
 namespace msc_vo {
 

@@ -8,8 +8,7 @@
 
 #include "msc_vo/map/map_validation.h"
 #include "msc_vo/mapping/landmark_fusion.h"
-#include "msc_vo/self_calibration/keyframe_intrinsics.h"
-#include "msc_vo/self_calibration/keyframe_rolling_shutter.h"
+#include "msc_vo/self_calibration/keyframe_frames.h"
 #include "msc_vo/structure/keyframe_structure.h"
 #include "msc_vo/timing/stopwatch.h"
 

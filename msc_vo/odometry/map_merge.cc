@@ -17,7 +17,7 @@
 #include "msc_vo/mapping/plane_map.h"
 #include "msc_vo/matching/local_map.h"
 #include "msc_vo/odometry/input_checks.h"
-#include "msc_vo/self_calibration/keyframe_intrinsics.h"
+#include "msc_vo/self_calibration/keyframe_frames.h"
 #include "msc_vo/tracking/place_search.h"
 
 namespace msc_vo {

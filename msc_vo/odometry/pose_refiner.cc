@@ -7,7 +7,7 @@
 
 #include "msc_vo/frame/frame_intrinsics.h"
 #include "msc_vo/pose_estimation/plane_factors.h"
-#include "msc_vo/self_calibration/keyframe_rolling_shutter.h"
+#include "msc_vo/self_calibration/keyframe_frames.h"
 #include "msc_vo/tracking/frame_pose.h"
 #include "msc_vo/tracking/tracked_frame.h"
 

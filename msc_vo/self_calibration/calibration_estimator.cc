@@ -23,7 +23,7 @@ namespace {
 constexpr size_t kMaxRelinearized = 2;
 constexpr size_t kMaxRelinearizedUnregistered = 4;
 // Iterations over all pairs before a correction is accepted.
-constexpr int kIterations = 3;
+constexpr int kLinearizations = 3;
 // A correction in use is replaced when its standard deviation has shrunk to this ratio, and the
 // estimate differs by more than this number of standard deviations.
 constexpr double kSigmaRatio = 0.7;
@@ -324,7 +324,7 @@ bool CalibrationEstimator::SelectGroups(double readout_sigma) {
   CorrectionEstimate selected = Select(readout_sigma);
   if (selected.is_corrected == before) return false;
   if (!IsSettled()) {
-    for (int i = 0; i < kIterations; ++i) Linearize(readout_sigma, pairs_.size());
+    for (int i = 0; i < kLinearizations; ++i) Linearize(readout_sigma, pairs_.size());
     selected = Select(readout_sigma);
   }
   if (selected.is_corrected[kRegistration] && !before[kRegistration]) {

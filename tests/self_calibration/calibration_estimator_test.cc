@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "msc_vo/frame/frame_intrinsics.h"
-#include "msc_vo/self_calibration/keyframe_intrinsics.h"
+#include "msc_vo/self_calibration/keyframe_frames.h"
 
 namespace msc_vo {
 namespace {

@@ -10,7 +10,7 @@
 #include "tests/support/rolling_frames.h"
 #include <gmock/gmock.h>
 
-#include "msc_vo/self_calibration/keyframe_rolling_shutter.h"
+#include "msc_vo/self_calibration/keyframe_frames.h"
 #include "msc_vo/self_calibration/readout_time_pair.h"
 
 namespace msc_vo {

@@ -17,7 +17,7 @@
 #include "msc_vo/checkpoint/binary_writer.h"
 #include "msc_vo/frame/frame_intrinsics.h"
 #include "msc_vo/self_calibration/calibration_estimator.h"
-#include "msc_vo/self_calibration/keyframe_intrinsics.h"
+#include "msc_vo/self_calibration/keyframe_frames.h"
 
 namespace msc_vo {
 namespace {

@@ -3,12 +3,25 @@
 
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "msc_vo/geometry/camera_velocity.h"
 #include "msc_vo/map/map.h"
 
 namespace msc_vo {
+
+/// Gives a keyframe other intrinsics.
+using KeyframeUpdate =
+    std::function<std::shared_ptr<const Frame>(KeyframeId, const std::shared_ptr<const Frame>&)>;
+
+/// Updates all keyframes, and moves every landmark to the position that the first of its
+/// observations with a depth measures. Poses remain; the map should be optimised. Landmarks that an
+/// earlier session has observed remain as well: the calibration of that is not in question.
+void ChangeKeyframeIntrinsics(const KeyframeUpdate& update, Map* map);
+
+/// Expresses all keyframes in another camera (ChangeCamera()). Landmarks remain.
+void ChangeKeyframeCamera(const PinholeCamera& camera, Map* map);
 
 /// Replaces the velocity of a keyframe, repeats its rolling-shutter compensation with the readout
 /// time that it was compensated with, and moves its planes by SetDepthVelocity(). No effect if the
