@@ -11,7 +11,6 @@
 
 #include "msc_vo/datasets/image_folder.h"
 #include "msc_vo/datasets/image_list.h"
-#include "msc_vo/datasets/median_interval.h"
 #include "msc_vo/datasets/name_pairing.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/datasets/time_unit.h"

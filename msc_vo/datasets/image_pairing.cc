@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "msc_vo/datasets/median_interval.h"
+#include "msc_vo/datasets/time_unit.h"
 #include "msc_vo/evaluation/association.h"
 #include "msc_vo/geometry/quantile.h"
 #include "msc_vo/text/format_text.h"

@@ -10,9 +10,9 @@
 #include <optional>
 #include <stdexcept>
 
-#include "msc_vo/datasets/median_interval.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/datasets/stamp_precision.h"
+#include "msc_vo/datasets/time_unit.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"

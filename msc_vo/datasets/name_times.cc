@@ -11,8 +11,8 @@
 #include <set>
 #include <utility>
 
-#include "msc_vo/datasets/median_interval.h"
 #include "msc_vo/datasets/stamp_precision.h"
+#include "msc_vo/datasets/time_unit.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "msc_vo/datasets/image_name.h"
-#include "msc_vo/datasets/median_interval.h"
 #include "msc_vo/datasets/name_times.h"
+#include "msc_vo/datasets/time_unit.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
 

@@ -9,7 +9,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "msc_vo/datasets/median_interval.h"
 #include "msc_vo/datasets/stamp_precision.h"
 #include "msc_vo/datasets/time_unit.h"
 #include "msc_vo/datasets/trajectory_format.h"

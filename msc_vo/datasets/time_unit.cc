@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "msc_vo/datasets/median_interval.h"
+#include "msc_vo/geometry/quantile.h"
 #include "msc_vo/text/enum_names.h"
 #include "msc_vo/text/format_text.h"
 
@@ -47,6 +48,14 @@ double UnitsPerSecond(TimeUnit unit) {
   constexpr double kRates[] = {1.0, 1e3, 1e6, 1e9, 1e7};
   static_assert(std::size(kRates) == static_cast<size_t>(TimeUnit::kHundredNanoseconds) + 1);
   return kRates[static_cast<size_t>(unit)];
+}
+
+double MedianInterval(std::vector<double> stamps) {
+  if (stamps.size() < 2) return 0.0;
+  std::sort(stamps.begin(), stamps.end());
+  std::vector<double> intervals;
+  for (size_t i = 1; i < stamps.size(); ++i) intervals.push_back(stamps[i] - stamps[i - 1]);
+  return UpperMedian(std::move(intervals));
 }
 
 TimeRange RangeOf(const std::vector<double>& seconds, TimeUnit unit) {

@@ -23,6 +23,10 @@ const char* ToString(TimeUnit unit);
 /// Returns the number of units in one second, 1e3 for milliseconds.
 double UnitsPerSecond(TimeUnit unit);
 
+/// Returns the median interval of stamps in any order, in the unit of the stamps; 0 for fewer than
+/// two.
+double MedianInterval(std::vector<double> stamps);
+
 /// The time range that a list of stamps covers, and the original unit of the list.
 struct TimeRange {
   double begin = 0.0;  ///< seconds

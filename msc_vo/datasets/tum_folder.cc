@@ -16,7 +16,6 @@
 #include "msc_vo/datasets/image_list.h"
 #include "msc_vo/datasets/image_pairing.h"
 #include "msc_vo/datasets/image_times.h"
-#include "msc_vo/datasets/median_interval.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/datasets/time_unit.h"
 #include "msc_vo/datasets/trajectory_format.h"

@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "msc_vo/datasets/median_interval.h"
 #include "msc_vo/datasets/pose_matrix.h"
+#include "msc_vo/datasets/time_unit.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "msc_vo/datasets/image_pairing.h"
-#include "msc_vo/datasets/median_interval.h"
 #include "msc_vo/datasets/time_unit.h"
 #include "msc_vo/text/format_text.h"
 
