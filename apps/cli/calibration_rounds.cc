@@ -11,7 +11,7 @@
 #include "apps/cli/command_log.h"
 #include "apps/cli/sequence_arguments.h"
 #include "msc_vo/camera/lens_validity.h"
-#include "msc_vo/datasets/calibration_correction.h"
+#include "msc_vo/datasets/calibration.h"
 #include "msc_vo/diagnosis/calibration_views.h"
 #include "msc_vo/diagnosis/registration_edges.h"
 #include "msc_vo/self_calibration/calibration_bounds.h"

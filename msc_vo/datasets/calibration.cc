@@ -8,6 +8,7 @@
 
 #include "msc_vo/camera/lens_validity.h"
 #include "msc_vo/camera/undistorted_camera.h"
+#include "msc_vo/sensor/depth_camera_correction.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
 
@@ -125,6 +126,29 @@ std::optional<Eigen::Quaterniond> NormalizedQuaternion(const std::vector<double>
   const Eigen::Quaterniond rotation(xyzw.at(3), xyzw.at(0), xyzw.at(1), xyzw.at(2));
   if (!(std::abs(rotation.norm() - 1.0) <= kMaxLengthError)) return std::nullopt;
   return rotation.normalized();
+}
+
+Calibration Corrected(const Calibration& calibration, const SensorCorrection::Vector& correction) {
+  CameraIntrinsics recorded{calibration.Recorded(), calibration.distortion};
+  recorded.distortion.recorded.reset();
+  Calibration corrected = Corrected(calibration, Corrected(recorded, correction));
+  corrected.SetUndistorted();
+  return corrected;
+}
+
+Calibration Corrected(const Calibration& calibration, const CameraIntrinsics& intrinsics) {
+  Calibration corrected = calibration;
+  corrected.camera = intrinsics.camera;
+  corrected.distortion = intrinsics.distortion;
+  if (intrinsics.registration) {
+    const PinholeCamera& given = calibration.Recorded();
+    const DepthCamera depth_camera = calibration.depth_camera
+                                         ? *calibration.depth_camera
+                                         : RegisteredDepthCamera(given, intrinsics.distortion);
+    corrected.depth_camera =
+        Corrected(depth_camera, given, corrected.Recorded(), *intrinsics.registration);
+  }
+  return corrected;
 }
 
 bool LensSettings::IsEmpty() const {

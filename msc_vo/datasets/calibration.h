@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "msc_vo/camera/camera_intrinsics.h"
 #include "msc_vo/camera/lens_distortion.h"
+#include "msc_vo/camera/sensor_correction.h"
 #include "msc_vo/sensor/depth_camera.h"
 #include "msc_vo/sensor/depth_sensor.h"
 
@@ -50,6 +52,14 @@ struct Calibration {
   /// If the calibration is invalid, `error` names the value and its valid range.
   bool IsValid(std::string* error) const;
 };
+
+/// Returns the calibration with a correction applied. Corrections of the depth registration become
+/// a depth camera, or change the one that there is; those of the depth sensor (kDepthOffset,
+/// kDepthBowl) are left out.
+Calibration Corrected(const Calibration& calibration, const SensorCorrection::Vector& correction);
+
+/// The same for intrinsics that have been corrected.
+Calibration Corrected(const Calibration& calibration, const CameraIntrinsics& intrinsics);
 
 /// The lens of a camera in a configuration.
 struct LensSettings {

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "msc_vo/datasets/calibration.h"
-#include "msc_vo/datasets/calibration_correction.h"
 #include "msc_vo/diagnosis/motion_calibration.h"
 #include "msc_vo/diagnosis/sequence_findings.h"
 #include "msc_vo/geometry/angles.h"

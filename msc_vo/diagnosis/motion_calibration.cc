@@ -3,7 +3,7 @@
 
 #include "msc_vo/diagnosis/motion_calibration.h"
 
-#include "msc_vo/datasets/calibration_correction.h"
+#include "msc_vo/datasets/calibration.h"
 #include "msc_vo/diagnosis/registration_edges.h"
 #include "msc_vo/self_calibration/sensor_calibration.h"
 

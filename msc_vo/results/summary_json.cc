@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <type_traits>
 
-#include "msc_vo/datasets/calibration_correction.h"
+#include "msc_vo/datasets/calibration.h"
 #include "msc_vo/datasets/image_container.h"
 #include "msc_vo/datasets/image_masks.h"
 #include "msc_vo/results/calibration_json.h"

@@ -10,7 +10,7 @@
 #include "tests/support/calibration_parameters.h"
 #include <gtest/gtest.h>
 
-#include "msc_vo/datasets/calibration_correction.h"
+#include "msc_vo/datasets/calibration.h"
 
 namespace msc_vo {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/datasets/calibration_correction.h"
-
 #include <cmath>
 
 #include "tests/support/eigen_matchers.h"
 #include <gtest/gtest.h>
+
+#include "msc_vo/datasets/calibration.h"
 
 namespace msc_vo {
 namespace {

@@ -10,7 +10,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "msc_vo/datasets/calibration_correction.h"
+#include "msc_vo/datasets/calibration.h"
 #include "msc_vo/geometry/so3.h"
 #include "msc_vo/results/calibration_json.h"
 #include "msc_vo/results/result_files.h"
