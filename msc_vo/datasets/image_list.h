@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,13 @@ struct ListedImage {
   std::string origin;  ///< for messages, "rgb.txt:12"
   int index = -1;      ///< position in SequenceIndex::container, if there is one
 };
+
+/// Returns the position of the first image, in the order of the list, at which the clock was set
+/// back: a list that ascends otherwise goes back there into a time that it has passed, so that
+/// sorting it would interleave two passages. None if the list ascends, has fewer than ten images,
+/// or is not in order anyway, and where sorting does no harm: for lists that were joined in the
+/// wrong order, displaced images, and rows that are repeated.
+std::optional<size_t> FindClockStep(const std::vector<ListedImage>& images);
 
 /// The colour and depth images of a folder.
 struct ImageLists {
