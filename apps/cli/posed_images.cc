@@ -67,9 +67,9 @@ std::vector<TimedPose> ReadPosesOfOneWorld(const std::string& path,
 std::vector<PosedImage> FindPosedImages(const std::string& path, const PoseSelection& selection,
                                         const RgbdDecoder& decoder) {
   const std::vector<TimedPose> poses = ReadPosesOfOneWorld(path, {1, selection.all_poses});
-  std::vector<double> stamps, pose_stamps;
-  for (const SequenceEntry& entry : decoder.index().entries) stamps.push_back(entry.timestamp);
-  for (const TimedPose& pose : poses) pose_stamps.push_back(pose.timestamp);
+  const std::vector<double> pose_stamps = TimestampsOf(poses, &TimedPose::timestamp);
+  const std::vector<double> stamps =
+      TimestampsOf(decoder.index().entries, &SequenceEntry::timestamp);
   std::vector<PosedImage> images;
   for (const StampMatch& match : AssociateStamps(stamps, pose_stamps, kMaxPoseDelay)) {
     images.push_back({match.reference, poses[static_cast<size_t>(match.query)]});

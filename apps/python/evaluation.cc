@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <stdexcept>
@@ -41,9 +40,7 @@ TrajectoryFile TrajectoryOfRows(const RowMajorMatrix& rows, const std::string& n
     }
     poses.push_back({rows(i, 0), Rigid3(q.normalized(), rows.row(i).segment<3>(1).transpose())});
   }
-  std::stable_sort(poses.begin(), poses.end(), [](const TimedPose& a, const TimedPose& b) {
-    return a.timestamp < b.timestamp;
-  });
+  SortByTime(&poses);
   return trajectory;
 }
 

@@ -13,6 +13,7 @@
 
 #include "msc_vo/datasets/stamp_precision.h"
 #include "msc_vo/geometry/quantile.h"
+#include "msc_vo/geometry/timed_pose.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
@@ -48,8 +49,7 @@ std::vector<TimedAcceleration> ReadRows(const std::string& path) {
 
 // Converts the stamps to seconds.
 void ToSeconds(const TimeRange& images, std::vector<TimedAcceleration>* readings) {
-  std::vector<double> stamps;
-  for (const TimedAcceleration& reading : *readings) stamps.push_back(reading.timestamp);
+  const std::vector<double> stamps = TimestampsOf(*readings, &TimedAcceleration::timestamp);
   const double rate = UnitsPerSecond(GuessTimeUnit(stamps, images));
   for (TimedAcceleration& reading : *readings) reading.timestamp /= rate;
 }

@@ -11,17 +11,12 @@
 #include "msc_vo/datasets/time_unit.h"
 #include "msc_vo/evaluation/association.h"
 #include "msc_vo/geometry/quantile.h"
+#include "msc_vo/geometry/timed_pose.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
 
 namespace {
-
-std::vector<double> StampsOf(const std::vector<ListedImage>& images) {
-  std::vector<double> stamps;
-  for (const ListedImage& image : images) stamps.push_back(image.stamp);
-  return stamps;
-}
 
 // `delay`: seconds from the colour image to the depth image.
 void AddPair(const ListedImage& color, const ListedImage& depth, double delay,
@@ -58,12 +53,14 @@ double MaxPairDifference(double interval) {
 
 double MaxPairDifference(const ImageLists& images) {
   return MaxPairDifference(
-      std::min(MedianInterval(StampsOf(images.color)), MedianInterval(StampsOf(images.depth))));
+      std::min(MedianInterval(TimestampsOf(images.color, &ListedImage::stamp)),
+               MedianInterval(TimestampsOf(images.depth, &ListedImage::stamp))));
 }
 
 void PairByTime(const ImageLists& images, double max_difference, SequenceIndex* index) {
   const std::vector<StampMatch> matches =
-      AssociateStamps(StampsOf(images.color), StampsOf(images.depth), max_difference);
+      AssociateStamps(TimestampsOf(images.color, &ListedImage::stamp),
+                      TimestampsOf(images.depth, &ListedImage::stamp), max_difference);
   for (const StampMatch& match : matches) {
     const ListedImage& color = images.color[match.reference];
     const ListedImage& depth = images.depth[match.query];

@@ -36,12 +36,6 @@ bool AreNumbered(const std::vector<TextLine>& lines) {
   return lines.size() > 1;
 }
 
-std::vector<double> TimesOf(const std::vector<TimedPose>& poses) {
-  std::vector<double> times;
-  for (const TimedPose& pose : poses) times.push_back(pose.timestamp);
-  return times;
-}
-
 void SetTimes(const std::vector<double>& times, SequenceIndex* index) {
   for (size_t i = 0; i < times.size(); ++i) index->entries[i].timestamp = times[i];
   index->has_assumed_times = false;
@@ -101,7 +95,7 @@ void AdoptTimesOfFile(const std::string& directory, SequenceIndex* index) {
 void AdoptTimesOfTruth(const std::string& name, SequenceIndex* index) {
   if (!index->has_assumed_times || index->ground_truth.empty() || index->entries.empty()) return;
   OrderEntries(index);
-  const std::vector<double> times = TimesOf(index->ground_truth);
+  const std::vector<double> times = TimestampsOf(index->ground_truth, &TimedPose::timestamp);
   const size_t num_images = index->entries.size();
   if (times.size() != num_images) {
     index->warnings.push_back(
@@ -126,7 +120,7 @@ void AdoptTimesOfTruth(const std::string& name, SequenceIndex* index) {
 
 void CheckTimesOfTruth(const std::string& name, SequenceIndex* index) {
   OrderEntries(index);
-  const std::vector<double> times = TimesOf(index->ground_truth);
+  const std::vector<double> times = TimestampsOf(index->ground_truth, &TimedPose::timestamp);
   if (times.size() != index->entries.size() || times.empty()) return;
   const std::vector<double> differences = DifferencesOf(times, *index);
   const auto [least, most] = std::minmax_element(differences.begin(), differences.end());

@@ -153,16 +153,10 @@ TrajectoryFile ReadKitti(std::vector<TextLine> rows) {
   return file;
 }
 
-std::vector<double> StampsOf(const std::vector<TimedPose>& poses) {
-  std::vector<double> stamps;
-  for (const TimedPose& pose : poses) stamps.push_back(pose.timestamp);
-  return stamps;
-}
-
 // Converts the time stamps to seconds. `other`: the range of the other trajectory.
 void ToSeconds(const std::string& path, const std::optional<TimeRange>& other, TrajectoryFile* file,
                std::vector<std::string>* warnings) {
-  const TimeUnit unit = GuessTimeUnit(StampsOf(file->poses), other);
+  const TimeUnit unit = GuessTimeUnit(TimestampsOf(file->poses, &TimedPose::timestamp), other);
   file->unit = unit;
   if (unit == TimeUnit::kSeconds) return;
   warnings->push_back(path + ": the time stamps are " + ToString(unit) +
@@ -200,12 +194,6 @@ std::string TrajectoryFile::DescribeLeftOut() const {
                            : FormatText("%d rows with nan or inf are left out", num_left_out);
 }
 
-void SortByTime(std::vector<TimedPose>* poses) {
-  std::stable_sort(poses->begin(), poses->end(), [](const TimedPose& a, const TimedPose& b) {
-    return a.timestamp < b.timestamp;
-  });
-}
-
 TrajectoryFile ReadTrajectoryFile(const std::string& path, std::optional<TrajectoryFormat> format) {
   if (format == TrajectoryFormat::kKitti) return ReadKitti(ReadTextLines(path));
   PoseRows rows = ReadPoseRows(path, format.has_value());
@@ -225,7 +213,7 @@ void ConvertToSeconds(const std::string& reference_path, const std::string& esti
   // The range of the stamps of a file, without knowledge of the other one.
   const auto range_of = [&](const TrajectoryFile& file) -> std::optional<TimeRange> {
     if (!file.has_stamps || file.poses.empty()) return std::nullopt;
-    std::vector<double> stamps = StampsOf(file.poses);
+    std::vector<double> stamps = TimestampsOf(file.poses, &TimedPose::timestamp);
     const TimeUnit unit = file.unit.value_or(GuessTimeUnit(stamps));
     if (!file.unit) {
       for (double& stamp : stamps) stamp /= UnitsPerSecond(unit);

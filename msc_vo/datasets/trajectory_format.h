@@ -45,9 +45,6 @@ struct TrajectoryFile {
   std::string DescribeLeftOut() const;
 };
 
-/// Sorts poses by time; those with the same time stay in their order.
-void SortByTime(std::vector<TimedPose>* poses);
-
 /// Reads a trajectory in the given format. Without one, a header decides which columns hold time,
 /// position and quaternion (FindPoseColumns()). Without a header, rows of 12 or 16 numbers with a
 /// rotation matrix are KITTI, comma-separated rows whose stamps are nanoseconds are EuRoC, and all

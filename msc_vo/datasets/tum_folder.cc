@@ -29,13 +29,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-template <typename Item>
-std::vector<double> StampsOf(const std::vector<Item>& items, double Item::*stamp) {
-  std::vector<double> stamps;
-  for (const Item& item : items) stamps.push_back(item.*stamp);
-  return stamps;
-}
-
 // Units per second of the stamps of the list `name`, whose median interval is at most
 // `max_interval` seconds. `images` is the time range of the images, if it is known.
 double StampsPerSecond(const std::string& name, const std::vector<double>& stamps,
@@ -79,7 +72,7 @@ bool ToSeconds(const std::string& name, double Item::*stamp, WholeStamps whole,
   constexpr double kMaxInterval =
       std::is_same_v<Item, TimedPose> ? kMaxPoseInterval : kMaxImageInterval;
   const double rate =
-      StampsPerSecond(name, StampsOf(*items, stamp), whole, images, kMaxInterval, index);
+      StampsPerSecond(name, TimestampsOf(*items, stamp), whole, images, kMaxInterval, index);
   for (Item& item : *items) item.*stamp /= rate;
   return rate == kDefaultFrameRate;
 }
@@ -87,7 +80,8 @@ bool ToSeconds(const std::string& name, double Item::*stamp, WholeStamps whole,
 void ToSeconds(const std::string& color_name, const std::string& depth_name, WholeStamps whole,
                ImageLists* images, SequenceIndex* index) {
   ToSeconds(color_name, &ListedImage::stamp, whole, std::nullopt, &images->color, index);
-  const TimeRange range = RangeOf(StampsOf(images->color, &ListedImage::stamp), index->stamp_unit);
+  const TimeRange range =
+      RangeOf(TimestampsOf(images->color, &ListedImage::stamp), index->stamp_unit);
   ToSeconds(depth_name, &ListedImage::stamp, whole, range, &images->depth, index);
 }
 
@@ -167,7 +161,7 @@ void ReadGroundTruthFile(const std::string& path, WholeStamps whole, SequenceInd
   const std::string name = fs::path(path).filename().string();
   if (file.num_left_out > 0) index->warnings.push_back(name + ": " + file.DescribeLeftOut());
   const TimeRange images =
-      RangeOf(StampsOf(index->entries, &SequenceEntry::timestamp), index->stamp_unit);
+      RangeOf(TimestampsOf(index->entries, &SequenceEntry::timestamp), index->stamp_unit);
   const bool are_numbers = !file.unit && ToSeconds(name, &TimedPose::timestamp, whole, images,
                                                    &index->ground_truth, index);
   if (are_numbers) {

@@ -106,9 +106,8 @@ void AddGroundTruthStampFindings(const SequenceIndex& index, Findings* findings)
         Good("ground_truth.overlap", "no ground truth: replay will not report errors"));
     return;
   }
-  std::vector<double> truth_stamps, image_stamps;
-  for (const TimedPose& pose : truth) truth_stamps.push_back(pose.timestamp);
-  for (const SequenceEntry& entry : index.entries) image_stamps.push_back(entry.timestamp);
+  const std::vector<double> truth_stamps = TimestampsOf(truth, &TimedPose::timestamp);
+  const std::vector<double> image_stamps = TimestampsOf(index.entries, &SequenceEntry::timestamp);
   const double max_difference = EvaluationOptions().max_time_difference;
   const size_t num_matched = AssociateStamps(truth_stamps, image_stamps, max_difference).size();
   const double ratio = static_cast<double>(num_matched) / static_cast<double>(image_stamps.size());

@@ -29,17 +29,8 @@ struct PosePair {
 };
 
 std::vector<TimedPose> SortedByTime(std::vector<TimedPose> poses) {
-  std::stable_sort(poses.begin(), poses.end(), [](const TimedPose& a, const TimedPose& b) {
-    return a.timestamp < b.timestamp;
-  });
+  SortByTime(&poses);
   return poses;
-}
-
-std::vector<double> Stamps(const std::vector<TimedPose>& poses) {
-  std::vector<double> stamps;
-  stamps.reserve(poses.size());
-  for (const TimedPose& pose : poses) stamps.push_back(pose.timestamp);
-  return stamps;
 }
 
 // Selects the poses to be compared, in order of time.
@@ -57,7 +48,8 @@ std::vector<PosePair> MatchPoses(const std::vector<TimedPose>& reference,
                                  double max_time_difference) {
   std::vector<PosePair> pairs;
   for (const StampMatch& match :
-       AssociateStamps(Stamps(reference), Stamps(estimate), max_time_difference)) {
+       AssociateStamps(TimestampsOf(reference, &TimedPose::timestamp),
+                       TimestampsOf(estimate, &TimedPose::timestamp), max_time_difference)) {
     pairs.push_back({reference[match.reference], estimate[match.query]});
   }
   return pairs;

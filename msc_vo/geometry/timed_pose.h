@@ -3,6 +3,9 @@
 
 #pragma once
 
+#include <algorithm>
+#include <vector>
+
 #include "msc_vo/geometry/rigid3.h"
 
 namespace msc_vo {
@@ -17,5 +20,21 @@ struct TimedPose {
   /// The segment whose world the pose is in. The transform between two worlds is unknown.
   int world = 0;
 };
+
+/// Sorts poses by time; those with the same time stay in their order.
+inline void SortByTime(std::vector<TimedPose>* poses) {
+  std::stable_sort(poses->begin(), poses->end(), [](const TimedPose& a, const TimedPose& b) {
+    return a.timestamp < b.timestamp;
+  });
+}
+
+/// Returns one member of all items: TimestampsOf(poses, &TimedPose::timestamp).
+template <typename Item>
+std::vector<double> TimestampsOf(const std::vector<Item>& items, double Item::*timestamp) {
+  std::vector<double> timestamps;
+  timestamps.reserve(items.size());
+  for (const Item& item : items) timestamps.push_back(item.*timestamp);
+  return timestamps;
+}
 
 }  // namespace msc_vo
