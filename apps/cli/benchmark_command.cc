@@ -114,7 +114,7 @@ int Report(const BenchmarkArguments& arguments, const Shard& shard, const Benchm
   const std::string table = ShardFileName("benchmark", shard, ".md");
   throw std::runtime_error(std::to_string(num_failed) + " of " +
                            std::to_string(benchmark.runs.size()) + " runs failed, see " +
-                           (fs::path(arguments.output) / table).string());
+                           PathIn(arguments.output, table));
 }
 
 // Runs the sequences of a table of the literature with loop closing off and on.

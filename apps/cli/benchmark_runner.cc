@@ -31,7 +31,7 @@ constexpr char kUnfinished[] = "the program was ended during this run";
 // The mask of a sequence: relative paths are those in its folder.
 std::string MaskOf(const BenchmarkSequence& sequence, const std::string& mask) {
   if (mask.empty()) return "";
-  const std::string path = (fs::path(sequence.directory) / mask).string();
+  const std::string path = PathIn(sequence.directory, mask);
   if (HasEntry(path)) return path;
   throw std::runtime_error(
       path +
@@ -57,7 +57,7 @@ void WriteBenchmarkTables(const std::string& folder, const Shard& shard,
                           const Benchmark& benchmark) {
   MakeFolder(folder);
   const auto path = [&](const char* stem, const char* ending) {
-    return (fs::path(folder) / ShardFileName(stem, shard, ending)).string();
+    return PathIn(folder, ShardFileName(stem, shard, ending));
   };
   WriteFile(path("benchmark", ".json"), FormatBenchmarkJson(benchmark));
   WriteFile(path("benchmark", ".md"), FormatBenchmarkMarkdown(benchmark));

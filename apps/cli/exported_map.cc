@@ -146,8 +146,7 @@ void CheckMapExport(const RunExport& arguments) {
   if (arguments.format == "g2o") return CheckFile(arguments, arguments.output, kG2oMark);
   for (const ModelFile& file : arguments.binary ? FormatColmapBinary({}) : FormatColmapText({})) {
     const std::string header = file.content.substr(0, file.content.find('\n'));
-    CheckFile(arguments, (fs::path(arguments.output) / file.name).string(),
-              arguments.binary ? "" : header);
+    CheckFile(arguments, PathIn(arguments.output, file.name), arguments.binary ? "" : header);
   }
   RefuseSequenceFolder(arguments.output);
 }
@@ -169,7 +168,7 @@ void WriteMapExport(const RunExport& arguments) {
       arguments.binary ? FormatColmapBinary(model) : FormatColmapText(model);
   MakeFolder(arguments.output);
   for (const ModelFile& file : files) {
-    WriteFile((fs::path(arguments.output) / file.name).string(), file.content);
+    WriteFile(PathIn(arguments.output, file.name), file.content);
   }
 }
 

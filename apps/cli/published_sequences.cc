@@ -70,7 +70,7 @@ std::vector<BenchmarkSequence> FindPublishedSequences(const PublishedTable& tabl
     std::string directory;
     for (const std::string& folder : sequence.folders) {
       for (const std::string& place : places) {
-        const std::string candidate = (fs::path(place) / folder).string();
+        const std::string candidate = PathIn(place, folder);
         if (directory.empty() && IsFolder(candidate)) directory = candidate;
       }
     }
@@ -88,10 +88,9 @@ std::vector<BenchmarkSequence> FindPublishedSequences(const PublishedTable& tabl
 void WritePublishedTables(const PublishedTable& table, const Benchmark& benchmark,
                           const std::string& root, const std::string& folder) {
   MakeFolder(folder);
-  const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
-  WriteFile(path("published.md"), FormatPublishedMarkdown(table, benchmark, root));
-  WriteFile(path("published.html"), FormatPublishedHtml(table, benchmark, root));
-  WriteFile(path("published.json"), FormatPublishedJson(table, benchmark, root));
+  WriteFile(PathIn(folder, "published.md"), FormatPublishedMarkdown(table, benchmark, root));
+  WriteFile(PathIn(folder, "published.html"), FormatPublishedHtml(table, benchmark, root));
+  WriteFile(PathIn(folder, "published.json"), FormatPublishedJson(table, benchmark, root));
 }
 
 }  // namespace msc_vo

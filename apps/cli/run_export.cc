@@ -39,10 +39,6 @@ constexpr char kTumMark[] = "# written by msc_vo export";
 
 bool NeedsImages(const std::string& format) { return format == "nerfstudio" || format == "ply"; }
 
-std::string FileOf(const std::string& run, const char* name) {
-  return (fs::path(run) / name).string();
-}
-
 std::string Absolute(const std::string& path) {
   return fs::absolute(path).lexically_normal().string();
 }
@@ -144,9 +140,9 @@ void AddMap(const std::string& folder, int world, McapRun* run) {
                    folder.c_str(), *recorded.map_world, world));
     return;
   }
-  run->points = ReadPointsPly(FileOf(folder, "map.ply"));
-  run->lines = ReadColoredEdgesPly(FileOf(folder, "lines.ply"));
-  const std::string planes = FileOf(folder, "planes.ply");
+  run->points = ReadPointsPly(PathIn(folder, "map.ply"));
+  run->lines = ReadColoredEdgesPly(PathIn(folder, "lines.ply"));
+  const std::string planes = PathIn(folder, "planes.ply");
   if (std::filesystem::exists(planes)) run->planes = ReadColoredPolygonsPly(planes);
 }
 
@@ -162,7 +158,7 @@ void WriteMcap(const RunExport& arguments) {
   RequireResults(arguments.run, arguments.format);
   const std::string trajectory = TrajectoryPath(arguments.run);
   const std::vector<TimedPose> poses = ReadPosesOfOneWorld(trajectory, arguments.poses);
-  const std::string frames_csv = FileOf(arguments.run, "frames.csv");
+  const std::string frames_csv = PathIn(arguments.run, "frames.csv");
   const std::map<int64_t, RecordedFrame> recorded = ReadFramesCsv(frames_csv);
   McapRun run;
   for (const TimedPose& pose : poses) {
@@ -249,7 +245,7 @@ void WriteExport(const RunExport& arguments) {
   std::vector<std::string> inputs = {TrajectoryPath(arguments.run)};
   for (const char* name :
        {"frames.csv", "lines.ply", "map.ply", "planes.ply", "sequence.json", "summary.json"}) {
-    inputs.push_back(FileOf(arguments.run, name));
+    inputs.push_back(PathIn(arguments.run, name));
   }
   if (!arguments.map.empty()) inputs.push_back(arguments.map);
   if (const auto identity = ReadIdentity(arguments.run)) {

@@ -30,7 +30,7 @@ bool IsNamedRegistered(const std::string& name) {
 
 std::string FindDepth(const std::string& directory, const std::string& ending,
                       std::vector<std::string>* warnings) {
-  const std::string plain = (fs::path(directory) / ("depth" + ending)).string();
+  const std::string plain = PathIn(directory, "depth" + ending);
   std::vector<std::string> entries = ListFolder(directory);
   std::sort(entries.begin(), entries.end());
   const auto registered = std::find_if(entries.begin(), entries.end(), [&](const auto& entry) {
@@ -47,11 +47,7 @@ std::string FindDepth(const std::string& directory, const std::string& ending,
 }
 
 std::string FindColorList(const std::string& directory) {
-  for (const char* name : {"rgb.txt", "color.txt"}) {
-    std::string path = (fs::path(directory) / name).string();
-    if (HasEntry(path)) return path;
-  }
-  return "";
+  return FirstEntry(directory, {"rgb.txt", "color.txt"});
 }
 
 }  // namespace msc_vo

@@ -241,12 +241,8 @@ ImageLists ReadAssociations(const std::string& path, std::vector<std::string>* w
 }
 
 std::string FindAssociations(const std::string& directory) {
-  for (const char* name :
-       {"associations.txt", "association.txt", "associated.txt", "assoc.txt", "associate.txt"}) {
-    std::string path = (fs::path(directory) / name).string();
-    if (HasEntry(path)) return path;
-  }
-  return "";
+  return FirstEntry(directory, {"associations.txt", "association.txt", "associated.txt",
+                                "assoc.txt", "associate.txt"});
 }
 
 }  // namespace msc_vo

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <stdexcept>
@@ -53,11 +52,7 @@ std::vector<double> DifferencesOf(const std::vector<double>& times, const Sequen
 }  // namespace
 
 std::string FindTimesFile(const std::string& directory) {
-  for (const char* name : {"times.txt", "timestamps.txt"}) {
-    std::string path = (std::filesystem::path(directory) / name).string();
-    if (HasEntry(path)) return path;
-  }
-  return "";
+  return FirstEntry(directory, {"times.txt", "timestamps.txt"});
 }
 
 std::vector<double> ReadTimesFile(const std::string& path) {

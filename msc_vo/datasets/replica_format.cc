@@ -5,7 +5,6 @@
 // with one 4x4 matrix world_from_cam per row; row i is that of frame i.
 
 #include <cstdint>
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -23,16 +22,10 @@
 
 namespace msc_vo {
 
-namespace fs = std::filesystem;
-
 namespace {
 
-std::string ImageFolder(const std::string& directory) {
-  return (fs::path(directory) / "results").string();
-}
-
 bool Recognises(const std::string& directory) {
-  return !ListImages(ImageFolder(directory), "frame").empty();
+  return !ListImages(PathIn(directory, "results"), "frame").empty();
 }
 
 // Reads the poses of all rows; none: the row holds no valid one.
@@ -104,10 +97,10 @@ void ReadPoses(const std::string& path, const NamedImages& color, SequenceIndex*
 
 SequenceIndex Read(const std::string& directory) {
   SequenceIndex index;
-  const std::vector<std::string> color = ListImages(ImageFolder(directory), "frame");
-  PairByName(color, ListImages(ImageFolder(directory), "depth"), &index);
+  const std::vector<std::string> color = ListImages(PathIn(directory, "results"), "frame");
+  PairByName(color, ListImages(PathIn(directory, "results"), "depth"), &index);
   index.preset = "replica";
-  const std::string poses = (fs::path(directory) / "traj.txt").string();
+  const std::string poses = PathIn(directory, "traj.txt");
   if (HasEntry(poses)) ReadPoses(poses, ReadImageNames(color), &index);
   ReadFolderCamera(directory, &index);
   return index;

@@ -4,7 +4,6 @@
 // Two folders of images without lists: rgb/ (or color/, colour/, image/, images/) and depth/.
 
 #include <algorithm>
-#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -20,13 +19,11 @@
 
 namespace msc_vo {
 
-namespace fs = std::filesystem;
-
 namespace {
 
 std::string ColorFolder(const std::string& directory) {
   for (const char* name : {"rgb", "color", "colour", "image", "images"}) {
-    std::string folder = (fs::path(directory) / name).string();
+    std::string folder = PathIn(directory, name);
     if (IsFolder(folder)) return folder;
   }
   return "";

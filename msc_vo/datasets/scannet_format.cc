@@ -24,9 +24,7 @@ namespace fs = std::filesystem;
 namespace {
 
 bool Recognises(const std::string& directory) {
-  const auto has_folder = [&](const char* name) {
-    return IsFolder((fs::path(directory) / name).string());
-  };
+  const auto has_folder = [&](const char* name) { return IsFolder(PathIn(directory, name)); };
   return has_folder("color") && has_folder("depth") &&
          (has_folder("pose") || has_folder("intrinsic"));
 }

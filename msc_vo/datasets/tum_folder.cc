@@ -143,12 +143,12 @@ void ReadTumEntries(const std::string& directory, WholeStamps whole, SequenceInd
 }
 
 void ReadTumGroundTruth(const std::string& directory, WholeStamps whole, SequenceIndex* index) {
-  const std::string path = (fs::path(directory) / "groundtruth.txt").string();
+  const std::string path = PathIn(directory, "groundtruth.txt");
   const std::string truth = HasEntry(path) ? path : FindFreiburgTruth(directory);
   if (!truth.empty()) {
     ReadGroundTruthFile(truth, whole, index);
   } else {
-    ReadReferenceFile((fs::path(directory) / "reference.txt").string(), whole, index);
+    ReadReferenceFile(PathIn(directory, "reference.txt"), whole, index);
   }
 }
 
@@ -172,7 +172,7 @@ void ReadGroundTruthFile(const std::string& path, WholeStamps whole, SequenceInd
 }
 
 void ReadFolderCamera(const std::string& directory, SequenceIndex* index) {
-  const std::string path = (fs::path(directory) / "camera.txt").string();
+  const std::string path = PathIn(directory, "camera.txt");
   if (HasEntry(path)) index->calibration = ReadCameraFile(path);
 }
 

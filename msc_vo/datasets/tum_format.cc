@@ -3,8 +3,6 @@
 
 // TUM RGB-D: rgb.txt and depth.txt, or an association file; groundtruth.txt; camera.txt.
 
-#include <filesystem>
-
 #include "msc_vo/datasets/camera_preset.h"
 #include "msc_vo/datasets/depth_folder.h"
 #include "msc_vo/datasets/image_list.h"
@@ -14,15 +12,11 @@
 
 namespace msc_vo {
 
-namespace fs = std::filesystem;
-
 namespace {
 
 bool Recognises(const std::string& directory) {
-  const auto has = [&](const char* name) {
-    return HasEntry((fs::path(directory) / name).string());
-  };
-  return has("rgb.txt") || has("depth.txt") || !FindAssociations(directory).empty() ||
+  return !FirstEntry(directory, {"rgb.txt", "depth.txt"}).empty() ||
+         !FindAssociations(directory).empty() ||
          (!FindColorList(directory).empty() && !FindDepth(directory, ".txt").empty());
 }
 

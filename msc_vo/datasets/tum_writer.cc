@@ -12,6 +12,7 @@
 
 #include "msc_vo/datasets/camera_file.h"
 #include "msc_vo/image_files/opencv_codecs.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
 
@@ -28,7 +29,7 @@ std::string PrepareFolder(const std::string& folder, const Calibration& calibrat
   if (HasEntry(folder) && !ListFolder(folder).empty()) {
     throw std::runtime_error(folder + ": is not empty; give another folder for the recording");
   }
-  for (const char* images : {"rgb", "depth"}) MakeFolder((fs::path(folder) / images).string());
+  for (const char* images : {"rgb", "depth"}) MakeFolder(PathIn(folder, images));
   return folder;
 }
 
@@ -80,11 +81,11 @@ TumWriter::TumWriter(const std::string& folder, const Calibration& calibration,
                      const std::string& comment)
     : folder_(PrepareFolder(folder, calibration)),
       depth_scale_(calibration.depth_scale),
-      color_list_((fs::path(folder) / "rgb.txt").string(), "# timestamp filename\n"),
-      depth_list_((fs::path(folder) / "depth.txt").string(), "# timestamp filename\n"),
-      associations_((fs::path(folder) / "associations.txt").string(),
+      color_list_(PathIn(folder, "rgb.txt"), "# timestamp filename\n"),
+      depth_list_(PathIn(folder, "depth.txt"), "# timestamp filename\n"),
+      associations_(PathIn(folder, "associations.txt"),
                     "# timestamp filename timestamp filename\n") {
-  WriteFile((fs::path(folder) / "camera.txt").string(), FormatCameraFile(calibration, comment));
+  WriteFile(PathIn(folder, "camera.txt"), FormatCameraFile(calibration, comment));
 }
 
 void TumWriter::Add(double color_time, double depth_time, const StoredImage& color,
@@ -95,14 +96,14 @@ void TumWriter::Add(double color_time, double depth_time, const StoredImage& col
   const std::string depth_name = "depth/" + depth_stamp + ".png";
   const cv::Mat raw =
       depth.pixels.type() == CV_32FC1 ? ToRawDepth(depth.pixels, depth_scale_) : depth.pixels;
-  WriteFile((fs::path(folder_) / color_name).string(),
+  WriteFile(PathIn(folder_, color_name),
             color.bytes.empty() ? EncodePng(color.pixels, color_name) : color.bytes);
-  WriteFile((fs::path(folder_) / depth_name).string(),
+  WriteFile(PathIn(folder_, depth_name),
             depth.bytes.empty() ? EncodePng(raw, depth_name) : depth.bytes);
   if (!mask.empty()) {
     const std::string mask_name = "mask/" + color_stamp + ".png";
-    MakeFolder((fs::path(folder_) / "mask").string());
-    WriteFile((fs::path(folder_) / mask_name).string(), EncodePng(mask, mask_name));
+    MakeFolder(PathIn(folder_, "mask"));
+    WriteFile(PathIn(folder_, mask_name), EncodePng(mask, mask_name));
   }
   AppendLines(color_stamp + " " + color_name, depth_stamp + " " + depth_name);
   ++num_pairs_;

@@ -19,6 +19,7 @@
 #include "msc_vo/datasets/pose_matrix.h"
 #include "msc_vo/phone_recordings/phone_formats.h"
 #include "msc_vo/phone_recordings/phone_sequence.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/named_columns.h"
 #include "msc_vo/text/text_file.h"
@@ -29,12 +30,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string FileIn(const std::string& directory, const char* name) {
-  return (fs::path(directory) / name).string();
-}
-
 bool IsStrayScanner(const std::string& directory) {
-  return HasEntry(FileIn(directory, "odometry.csv")) && HasEntry(FileIn(directory, "rgb.mp4"));
+  return HasEntry(PathIn(directory, "odometry.csv")) && HasEntry(PathIn(directory, "rgb.mp4"));
 }
 
 // A row of odometry.csv.
@@ -128,21 +125,21 @@ PinholeCamera ReadCameraMatrix(const std::string& path) {
 }
 
 SequenceIndex ReadStrayScanner(const std::string& directory, const PhoneOptions& options) {
-  const std::string odometry = FileIn(directory, "odometry.csv");
+  const std::string odometry = PathIn(directory, "odometry.csv");
   const std::vector<OdometryRow> rows = ReadOdometry(odometry);
-  const auto depth = NumberedImages(FileIn(directory, "depth"));
-  const auto confidence = NumberedImages(FileIn(directory, "confidence"));
+  const auto depth = NumberedImages(PathIn(directory, "depth"));
+  const auto confidence = NumberedImages(PathIn(directory, "confidence"));
   if (depth.empty()) {
-    throw std::runtime_error(FileIn(directory, "depth") +
+    throw std::runtime_error(PathIn(directory, "depth") +
                              ": has no images 000000.png and so on; depth of old versions of Stray "
                              "Scanner (.npy) is not read");
   }
   PhoneRecording recording;
   recording.video =
-      std::make_shared<const VideoImages>(FileIn(directory, "rgb.mp4"), options.make_video_reader);
+      std::make_shared<const VideoImages>(PathIn(directory, "rgb.mp4"), options.make_video_reader);
   const std::vector<int> numbers = VideoNumbers(*recording.video, rows, odometry);
   const bool has_own_intrinsics = rows.front().camera.has_value();
-  recording.intrinsics = has_own_intrinsics ? odometry : FileIn(directory, "camera_matrix.csv");
+  recording.intrinsics = has_own_intrinsics ? odometry : PathIn(directory, "camera_matrix.csv");
   PinholeCamera shared;
   if (!has_own_intrinsics) shared = ReadCameraMatrix(recording.intrinsics);
   const cv::Mat first = recording.video->Read(numbers.front());
@@ -150,7 +147,7 @@ SequenceIndex ReadStrayScanner(const std::string& directory, const PhoneOptions&
     PhoneFrame frame;
     frame.timestamp = rows[i].timestamp;
     frame.image.video_number = numbers[i];
-    frame.image.color_path = FileIn(directory, "rgb.mp4") + FormatText("/%06d", rows[i].frame);
+    frame.image.color_path = PathIn(directory, "rgb.mp4") + FormatText("/%06d", rows[i].frame);
     frame.image.depth_path = Find(depth, rows[i].frame);
     frame.image.confidence_path = Find(confidence, rows[i].frame);
     frame.camera = rows[i].camera.value_or(shared);

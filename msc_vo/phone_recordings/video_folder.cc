@@ -32,7 +32,7 @@ namespace {
 std::string FindVideo(const std::string& directory) {
   for (const char* name : {"color", "colour", "rgb", "video"}) {
     for (const char* ending : {".mp4", ".mov", ".mkv", ".avi"}) {
-      const std::string path = (fs::path(directory) / (std::string(name) + ending)).string();
+      const std::string path = PathIn(directory, std::string(name) + ending);
       if (HasEntry(path)) return path;
     }
   }

@@ -27,10 +27,6 @@ namespace msc_vo {
 
 namespace {
 
-std::string FileIn(const std::string& directory, const char* name) {
-  return (std::filesystem::path(directory) / name).string();
-}
-
 // Files that every run writes.
 constexpr const char* kFilesOfEveryRun[] = {"trajectory.txt", "keyframes.txt", "frames.csv",
                                             "map.ply",        "lines.ply",     "summary.json",
@@ -123,9 +119,9 @@ void RefuseToOverwriteInputs(const SequenceIndex& sequence, const std::vector<st
                              const std::string& directory) {
   RefuseToOverwrite(InputFolders(sequence), directory);
   for (const char* name : kFilesOfEveryRun) {
-    RefuseToOverwrite(files, FileIn(directory, name));
+    RefuseToOverwrite(files, PathIn(directory, name));
   }
-  RefuseToOverwrite(files, FileIn(directory, kPlanes));
+  RefuseToOverwrite(files, PathIn(directory, kPlanes));
 }
 
 void RemoveResultFiles(const std::string& directory, const SequenceIdentity& sequence) {
@@ -137,9 +133,9 @@ void RemoveResultFiles(const std::string& directory, const SequenceIdentity& seq
   }
   for (const char* name : names) {
     std::error_code error;
-    std::filesystem::remove(FileIn(directory, name), error);
+    std::filesystem::remove(PathIn(directory, name), error);
     if (error) {
-      throw std::runtime_error(FileIn(directory, name) +
+      throw std::runtime_error(PathIn(directory, name) +
                                ": cannot be replaced: " + ErrorText(error));
     }
   }
@@ -148,7 +144,7 @@ void RemoveResultFiles(const std::string& directory, const SequenceIdentity& seq
 std::string WriteResultFiles(const std::string& directory, const OdometryResult& result,
                              const RunContext& context, const MakeRoom& make_room) {
   MakeFolder(directory);
-  const auto path = [&](const char* name) { return FileIn(directory, name); };
+  const auto path = [&](const char* name) { return PathIn(directory, name); };
   const RunSummary summary = Summarize(result);
   std::vector<std::pair<const char*, std::string>> files = {
       {"trajectory.txt", FormatTrajectory(TrajectoryOf(result))},

@@ -31,10 +31,6 @@ std::string NameAndSize(const std::string& path) {
   return fs::path(path).filename().string() + (error ? "?" : " " + std::to_string(size)) + "\n";
 }
 
-std::string ResultFile(const std::string& directory, const char* name) {
-  return (fs::path(directory) / name).string();
-}
-
 // Contents of a file in JSON; none if it is missing or damaged.
 std::optional<Json> ReadJson(const std::string& path) {
   if (!FileProblem(path).empty()) return std::nullopt;
@@ -51,11 +47,11 @@ std::string Text(const Json& json, const char* key) {
 }  // namespace
 
 std::optional<SequenceIdentity> ReadIdentity(const std::string& directory) {
-  if (const auto json = ReadJson(ResultFile(directory, "sequence.json"))) {
+  if (const auto json = ReadJson(PathIn(directory, "sequence.json"))) {
     return SequenceIdentity{Text(*json, "path"), Text(*json, "stamps"), Text(*json, "images")};
   }
   // Results of earlier versions.
-  const auto summary = ReadJson(ResultFile(directory, "summary.json"));
+  const auto summary = ReadJson(PathIn(directory, "summary.json"));
   if (!summary || !summary->contains("sequence") || !(*summary)["sequence"].is_object()) return {};
   return IdentifySequence(Text((*summary)["sequence"], "directory"));
 }
@@ -99,7 +95,7 @@ SequenceIdentity IdentifySequence(const SequenceIndex& index) {
 void WriteIdentity(const std::string& directory, const SequenceIdentity& sequence) {
   const Json json = {
       {"path", sequence.path}, {"stamps", sequence.stamps}, {"images", sequence.images}};
-  WriteFile(ResultFile(directory, "sequence.json"), FormatJson(json));
+  WriteFile(PathIn(directory, "sequence.json"), FormatJson(json));
 }
 
 void RefuseToOverwriteOthers(const std::string& directory, const SequenceIdentity& sequence) {

@@ -98,6 +98,18 @@ bool HasEntry(const std::string& path) {
   return type != fs::file_type::none && type != fs::file_type::not_found;
 }
 
+std::string PathIn(const std::string& folder, const std::string& name) {
+  return (fs::path(folder) / name).string();
+}
+
+std::string FirstEntry(const std::string& folder, const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    std::string path = PathIn(folder, name);
+    if (HasEntry(path)) return path;
+  }
+  return "";
+}
+
 bool IsFolder(const std::string& path) {
   std::error_code error;
   return fs::is_directory(path, error);

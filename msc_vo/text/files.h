@@ -20,6 +20,12 @@ constexpr std::uintmax_t kMaxImageBytes = std::uintmax_t{256} << 20;
 /// it is broken. Whether the entry can be read is not tested.
 bool HasEntry(const std::string& path);
 
+/// Returns the path of an entry of a folder.
+std::string PathIn(const std::string& folder, const std::string& name);
+
+/// Returns the path of the first of these entries that a folder has; empty if it has none.
+std::string FirstEntry(const std::string& folder, const std::vector<std::string>& names);
+
 /// Tests whether `path` is a folder or a link to one. Never throws.
 bool IsFolder(const std::string& path);
 
