@@ -75,10 +75,10 @@ void AddRange(const std::vector<float>& depths, double valid, const DepthUnits& 
       FormatText("depth: median %.2f m, 90 %% within %.2f to %.2f m, %.0f %% of the pixels valid",
                  median, Quantile(0.05, depths), Quantile(0.95, depths), 100.0 * valid);
   const Measurement measurement{median, "m"};
+  const Severity severity = IsUsableDepth(median) ? Severity::kWarning : Severity::kError;
   if (AreShifted(depths, units) && std::abs(units.per_metre / kShiftedUnits - 1.0) > 0.1) {
-    const auto add = IsUsableDepth(median) ? Warning : Error;
-    findings->push_back(add(
-        "depth.scale",
+    findings->push_back(MakeFinding(
+        severity, "depth.scale",
         FormatText("all raw depth values are multiples of 8: they may be millimetres shifted by "
                    "three bits, as in SUN3D, with a median depth of %.3f m instead of %.3f m",
                    median * units.per_metre / kShiftedUnits, median),
@@ -98,8 +98,7 @@ void AddRange(const std::vector<float>& depths, double valid, const DepthUnits& 
       " is probably wrong";
   const std::string fix = likely.empty() ? "look up the units of the depth images"
                                          : "correct " + option + ": " + likely;
-  findings->push_back(IsUsableDepth(median) ? Warning("depth.scale", text, fix, measurement)
-                                            : Error("depth.scale", text, fix, measurement));
+  findings->push_back(MakeFinding(severity, "depth.scale", text, fix, measurement));
 }
 
 }  // namespace

@@ -7,15 +7,9 @@
 
 namespace msc_vo {
 
-namespace {
-
-Finding Make(Severity severity, const std::string& check, const std::string& text,
-             const std::string& fix, const std::optional<Measurement>& measurement) {
-  Finding finding;
-  finding.severity = severity;
-  finding.text = text;
-  finding.check = check;
-  finding.fix = fix;
+Finding MakeFinding(Severity severity, const std::string& check, const std::string& text,
+                    const std::string& fix, const std::optional<Measurement>& measurement) {
+  Finding finding{severity, text, check, severity == Severity::kGood ? "" : fix, {}, {}};
   if (measurement) {
     finding.value = measurement->value;
     finding.unit = measurement->unit;
@@ -23,21 +17,19 @@ Finding Make(Severity severity, const std::string& check, const std::string& tex
   return finding;
 }
 
-}  // namespace
-
 Finding Good(const std::string& check, const std::string& text,
              const std::optional<Measurement>& measurement) {
-  return Make(Severity::kGood, check, text, "", measurement);
+  return MakeFinding(Severity::kGood, check, text, "", measurement);
 }
 
 Finding Warning(const std::string& check, const std::string& text, const std::string& fix,
                 const std::optional<Measurement>& measurement) {
-  return Make(Severity::kWarning, check, text, fix, measurement);
+  return MakeFinding(Severity::kWarning, check, text, fix, measurement);
 }
 
 Finding Error(const std::string& check, const std::string& text, const std::string& fix,
               const std::optional<Measurement>& measurement) {
-  return Make(Severity::kError, check, text, fix, measurement);
+  return MakeFinding(Severity::kError, check, text, fix, measurement);
 }
 
 const char* ToString(Severity severity) {

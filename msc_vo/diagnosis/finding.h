@@ -40,6 +40,10 @@ Finding Warning(const std::string& check, const std::string& text, const std::st
 Finding Error(const std::string& check, const std::string& text, const std::string& fix,
               const std::optional<Measurement>& measurement = std::nullopt);
 
+/// The same by severity; `fix` is left out if that is kGood.
+Finding MakeFinding(Severity severity, const std::string& check, const std::string& text,
+                    const std::string& fix, const std::optional<Measurement>& measurement);
+
 /// Name of a severity for files: "ok", "warning" or "error".
 const char* ToString(Severity severity);
 

@@ -130,15 +130,11 @@ class GroundTruthComparison {
     const std::string text = FormatText("the ground truth is %.0f +- %.0f ms %s than the images",
                                         1e3 * std::abs(offset->seconds), 1e3 * offset->sigma,
                                         offset->seconds > 0.0 ? "later" : "earlier");
-    if (!IsSignificant(*offset)) {
-      findings_->push_back(Good(check, text, measurement));
-      return;
-    }
-    findings_->push_back(
-        Warning(check, text,
-                FormatText("%s %.3f s %s its stamps", offset->seconds > 0.0 ? "subtract" : "add",
-                           std::abs(offset->seconds), offset->seconds > 0.0 ? "from" : "to"),
-                measurement));
+    findings_->push_back(MakeFinding(
+        IsSignificant(*offset) ? Severity::kWarning : Severity::kGood, check, text,
+        FormatText("%s %.3f s %s its stamps", offset->seconds > 0.0 ? "subtract" : "add",
+                   std::abs(offset->seconds), offset->seconds > 0.0 ? "from" : "to"),
+        measurement));
   }
 
   void AddTranslations(const TruthReading& reading) {
@@ -189,12 +185,10 @@ class GroundTruthComparison {
                                 measurement));
       return;
     }
-    if (std::abs(ratio - 1.0) <= std::max(kMaxScaleError, kSignificantSigmas * sigma)) {
-      findings_->push_back(Good("ground_truth.scale", text, measurement));
-      return;
-    }
-    findings_->push_back(Warning(
-        "ground_truth.scale", text,
+    const bool is_good =
+        std::abs(ratio - 1.0) <= std::max(kMaxScaleError, kSignificantSigmas * sigma);
+    findings_->push_back(MakeFinding(
+        is_good ? Severity::kGood : Severity::kWarning, "ground_truth.scale", text,
         units_.Option() +
             FormatText(units_.are_floats ? " is probably %.4g units per metre, not %.4g"
                                          : " is probably %.0f raw units per metre, not %.1f",
@@ -223,14 +217,11 @@ class GroundTruthComparison {
                "body of the ground truth: not tested, the camera moves too little"));
       return;
     }
-    if (!hand_eye.HasOffset()) {
-      findings_->push_back(Good("ground_truth.hand_eye", text, measurement));
-      return;
-    }
-    findings_->push_back(Warning("ground_truth.hand_eye", text,
-                                 "transform the ground truth to the optical centre of the colour "
-                                 "camera (hand-eye calibration)",
-                                 measurement));
+    findings_->push_back(MakeFinding(
+        hand_eye.HasOffset() ? Severity::kWarning : Severity::kGood, "ground_truth.hand_eye", text,
+        "transform the ground truth to the optical centre of the colour "
+        "camera (hand-eye calibration)",
+        measurement));
   }
 
   const MotionTrack& track_;

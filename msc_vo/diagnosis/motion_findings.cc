@@ -173,14 +173,12 @@ void AddFrameMotionFindings(const MotionTrack& track, int width, Findings* findi
       "ten)",
       median, high);
   const Measurement measurement{high, "px"};
-  if (high <= kMaxDisplacement * width) {
-    findings->push_back(Good("motion.frame_rate", text, measurement));
-    return;
-  }
-  findings->push_back(Warning("motion.frame_rate", text,
-                              "the frame rate is low for this motion: record more frames per "
-                              "second, move more slowly, or shorten the exposure",
-                              measurement));
+  const bool is_good = high <= kMaxDisplacement * width;
+  findings->push_back(MakeFinding(is_good ? Severity::kGood : Severity::kWarning,
+                                  "motion.frame_rate", text,
+                                  "the frame rate is low for this motion: record more frames per "
+                                  "second, move more slowly, or shorten the exposure",
+                                  measurement));
 }
 
 void AddLatencyFindings(const MotionTrack& track, Findings* findings) {
@@ -205,12 +203,9 @@ void AddLatencyFindings(const MotionTrack& track, Findings* findings) {
       1e3 * std::abs(seconds), 1e3 * latency.sigma, seconds > 0.0 ? "later" : "earlier",
       latency.gain);
   const Measurement measurement{seconds, "s"};
-  if (std::abs(seconds) <= kMaxLatency || !is_significant) {
-    findings->push_back(Good(check, text, measurement));
-    return;
-  }
-  findings->push_back(Warning(
-      check, text,
+  const bool is_good = std::abs(seconds) <= kMaxLatency || !is_significant;
+  findings->push_back(MakeFinding(
+      is_good ? Severity::kGood : Severity::kWarning, check, text,
       FormatText("%s %.3f s %s the stamps in the list of depth images and pair anew (remove "
                  "associations.txt)",
                  seconds > 0.0 ? "add" : "subtract", std::abs(seconds),

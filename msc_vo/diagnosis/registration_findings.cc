@@ -123,16 +123,13 @@ void AddRegistrationFindings(const std::vector<EdgeAlignment>& images, int width
   const Measurement measurement{distance, "px"};
   const bool is_certain =
       peak.at_zero - peak.background < kMaxZeroRatio * (peak.peak - peak.background);
-  if (distance <= kMaxShift * width / 640.0 || !is_certain) {
-    findings->push_back(Good("registration.shift", text, measurement));
-    return;
-  }
+  const bool is_good = distance <= kMaxShift * width / 640.0 || !is_certain;
   findings->push_back(
-      Warning("registration.shift", text,
-              "the depth is not registered to the colour image: switch registration "
-              "on in the driver, or warp the depth with the calibration of both "
-              "cameras",
-              measurement));
+      MakeFinding(is_good ? Severity::kGood : Severity::kWarning, "registration.shift", text,
+                  "the depth is not registered to the colour image: switch registration "
+                  "on in the driver, or warp the depth with the calibration of both "
+                  "cameras",
+                  measurement));
 }
 
 }  // namespace msc_vo
