@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,6 +48,15 @@ struct MapContents {
   std::vector<SavedSubMap> submaps;  ///< by ascending id
   std::vector<PoseGraphEdge> loops;  ///< of the keyframes that closed loops
 };
+
+/// The submap with this id, of constant or other contents; nullptr if there is none.
+template <typename Contents>
+auto FindSubMap(Contents& contents, int64_t id) -> decltype(contents.submaps.data()) {
+  for (auto& submap : contents.submaps) {
+    if (submap.id == id) return &submap;
+  }
+  return nullptr;
+}
 
 /// The keyframe in any of the submaps; nullptr if there is none with this id.
 inline const Keyframe* FindKeyframe(const MapContents& contents, KeyframeId id) {

@@ -63,11 +63,9 @@ class TableWriter {
   void Write() {
     Erase();
     for (const SavedSubMap& submap : now_.submaps) {
-      const auto same =
-          std::find_if(before_.submaps.begin(), before_.submaps.end(),
-                       [&](const SavedSubMap& other) { return other.id == submap.id; });
+      const SavedSubMap* const same = FindSubMap(before_, submap.id);
       const Map empty;
-      WriteMap(submap.id, same != before_.submaps.end() ? same->map : empty, submap.map);
+      WriteMap(submap.id, same != nullptr ? same->map : empty, submap.map);
     }
     WriteSmallTables();
   }
@@ -83,9 +81,8 @@ class TableWriter {
     };
     const Map empty;
     for (const SavedSubMap& submap : before_.submaps) {
-      const auto same = std::find_if(now_.submaps.begin(), now_.submaps.end(),
-                                     [&](const SavedSubMap& now) { return now.id == submap.id; });
-      const Map& now = same != now_.submaps.end() ? same->map : empty;
+      const SavedSubMap* const same = FindSubMap(now_, submap.id);
+      const Map& now = same != nullptr ? same->map : empty;
       const auto keep = [](const auto& /*entry*/) {};
       now.keyframes().VisitChanges(submap.map.keyframes(), keep, [&](KeyframeId id) {
         if (FindKeyframe(now_, id) != nullptr) return;

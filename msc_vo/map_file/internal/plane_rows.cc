@@ -228,16 +228,13 @@ void ReadPlanes(const SqliteDatabase& database, MapContents* contents) {
     RowReader row(rows, database.path(), "plane");
     const LandmarkId id = row.Integer();
     if (id < 0 || id > kMaxLandmarks) row.Fail("its id is not possible");
-    const int64_t submap_id = row.Integer();
-    const auto submap =
-        std::find_if(contents->submaps.begin(), contents->submaps.end(),
-                     [&](const SavedSubMap& other) { return other.id == submap_id; });
-    if (submap == contents->submaps.end()) row.Fail("its submap does not exist");
+    SavedSubMap* const submap = FindSubMap(*contents, row.Integer());
+    if (submap == nullptr) row.Fail("its submap does not exist");
     try {
       const HostedPlane plane = ReadPlane(&row);
       if (submap->map.FindKeyframe(plane.host) == nullptr) row.Fail("its host does not exist");
       submap->planes.planes[id] = plane;
-      ReadObservations(row.Blob(), id, &*submap);
+      ReadObservations(row.Blob(), id, submap);
     } catch (const BlobError& error) {
       row.Fail(error.what());
     }

@@ -90,12 +90,6 @@ class TableReader {
     RefuseDamaged(database_.path(), problem);
   }
 
-  SavedSubMap* FindSubMap(int64_t id) {
-    const auto place = std::find_if(contents_.submaps.begin(), contents_.submaps.end(),
-                                    [id](const SavedSubMap& submap) { return submap.id == id; });
-    return place != contents_.submaps.end() ? &*place : nullptr;
-  }
-
   void ReadIds() {
     SqliteStatement rows = database_.Prepare("SELECT * FROM map");
     if (!rows.Step()) Fail("its table map is empty");
@@ -182,7 +176,7 @@ class TableReader {
   void ReadKeyframe(RowReader* row, RowReader* features) {
     const KeyframeId id = row->Integer();
     if (id < 0 || id >= next_keyframe_) row->Fail("its id is not possible");
-    SavedSubMap* const submap = FindSubMap(row->Integer());
+    SavedSubMap* const submap = FindSubMap(contents_, row->Integer());
     if (submap == nullptr) row->Fail("its submap does not exist");
     const Rigid3 cam_from_world = ReadPose(row);
     row->Finish();
@@ -246,7 +240,7 @@ class TableReader {
     L landmark;
     landmark.id = row->Integer();
     if (landmark.id < 0 || landmark.id >= next_landmark_) row->Fail("its id is not possible");
-    SavedSubMap* const submap = FindSubMap(row->Integer());
+    SavedSubMap* const submap = FindSubMap(contents_, row->Integer());
     if (submap == nullptr) row->Fail("its submap does not exist");
     landmark.first_keyframe = row->Integer();
     ReadGeometry(row, &landmark);
