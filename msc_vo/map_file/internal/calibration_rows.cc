@@ -105,25 +105,19 @@ void BlobOrNull(const std::string& bytes, RowWriter* row) {
 }  // namespace
 
 void CalibrationRows::Read(const SqliteDatabase& database) {
-  SqliteStatement rows = database.Prepare("SELECT * FROM calibration ORDER BY id");
-  while (rows.Step()) {
-    RowReader row(rows, database.path(), "calibration");
-    const int64_t id = row.Integer();
+  ForEachRow(database, "calibration", "id", [&](RowReader* row) {
+    const int64_t id = row->Integer();
     FrameCalibration calibration;
-    try {
-      calibration.camera = ReadCamera(&row);
-      calibration.intrinsics = ReadIntrinsics(calibration.camera, &row);
-    } catch (const BlobError& error) {
-      row.Fail(error.what());
-    }
-    row.Finish();
+    calibration.camera = ReadCamera(row);
+    calibration.intrinsics = ReadIntrinsics(calibration.camera, row);
+    row->Finish();
     Frame frame;
     frame.camera = calibration.camera;
     frame.intrinsics = calibration.intrinsics;
     ids_.emplace(Key(frame), id);
     rows_.emplace(id, std::move(calibration));
     next_id_ = id + 1;
-  }
+  });
 }
 
 const FrameCalibration* CalibrationRows::Find(int64_t id) const {

@@ -208,38 +208,26 @@ void WritePlanes(const SqliteDatabase& database, const MapContents& contents) {
 
 std::map<KeyframeId, std::vector<PlaneFeature>> ReadPlaneFeatures(const SqliteDatabase& database) {
   std::map<KeyframeId, std::vector<PlaneFeature>> planes;
-  SqliteStatement rows = database.Prepare("SELECT * FROM plane_features");
-  while (rows.Step()) {
-    RowReader row(rows, database.path(), "plane_features");
-    const KeyframeId keyframe = row.Integer();
-    try {
-      planes[keyframe] = DecodePlanes(row.Blob());
-    } catch (const BlobError& error) {
-      row.Fail(error.what());
-    }
-    row.Finish();
-  }
+  ForEachRow(database, "plane_features", "keyframe", [&](RowReader* row) {
+    const KeyframeId keyframe = row->Integer();
+    planes[keyframe] = DecodePlanes(row->Blob());
+    row->Finish();
+  });
   return planes;
 }
 
 void ReadPlanes(const SqliteDatabase& database, MapContents* contents) {
-  SqliteStatement rows = database.Prepare("SELECT * FROM plane ORDER BY id");
-  while (rows.Step()) {
-    RowReader row(rows, database.path(), "plane");
-    const LandmarkId id = row.Integer();
-    if (id < 0 || id > kMaxLandmarks) row.Fail("its id is not possible");
-    SavedSubMap* const submap = FindSubMap(*contents, row.Integer());
-    if (submap == nullptr) row.Fail("its submap does not exist");
-    try {
-      const HostedPlane plane = ReadPlane(&row);
-      if (submap->map.FindKeyframe(plane.host) == nullptr) row.Fail("its host does not exist");
-      submap->planes.planes[id] = plane;
-      ReadObservations(row.Blob(), id, submap);
-    } catch (const BlobError& error) {
-      row.Fail(error.what());
-    }
-    row.Finish();
-  }
+  ForEachRow(database, "plane", "id", [&](RowReader* row) {
+    const LandmarkId id = row->Integer();
+    if (id < 0 || id > kMaxLandmarks) row->Fail("its id is not possible");
+    SavedSubMap* const submap = FindSubMap(*contents, row->Integer());
+    if (submap == nullptr) row->Fail("its submap does not exist");
+    const HostedPlane plane = ReadPlane(row);
+    if (submap->map.FindKeyframe(plane.host) == nullptr) row->Fail("its host does not exist");
+    submap->planes.planes[id] = plane;
+    ReadObservations(row->Blob(), id, submap);
+    row->Finish();
+  });
 }
 
 }  // namespace msc_vo

@@ -9,6 +9,8 @@
 
 #include <sqlite3.h>
 
+#include "msc_vo/map_file/internal/blob.h"
+
 namespace msc_vo {
 
 namespace {
@@ -140,6 +142,20 @@ void RowReader::Finish() {
 void RowReader::Fail(const std::string& problem) const {
   RefuseDamaged(path_, std::string("table ") + table_ + ", row " +
                            std::to_string(statement_.Integer(0)) + ": " + problem);
+}
+
+void ForEachRow(const SqliteDatabase& database, const char* table, const char* key,
+                const std::function<void(RowReader*)>& read) {
+  SqliteStatement rows =
+      database.Prepare(std::string("SELECT * FROM ") + table + " ORDER BY " + key);
+  while (rows.Step()) {
+    RowReader row(rows, database.path(), table);
+    try {
+      read(&row);
+    } catch (const BlobError& error) {
+      row.Fail(error.what());
+    }
+  }
 }
 
 }  // namespace msc_vo

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -86,5 +87,10 @@ class RowReader {
   RowChecksum checksum_;
   int column_ = 0;
 };
+
+/// Calls `read` for every row of a table, by ascending `key`. A BlobError that it throws becomes
+/// the error that the row is damaged.
+void ForEachRow(const SqliteDatabase& database, const char* table, const char* key,
+                const std::function<void(RowReader*)>& read);
 
 }  // namespace msc_vo

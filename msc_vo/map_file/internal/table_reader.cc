@@ -106,55 +106,51 @@ class TableReader {
   }
 
   void ReadSessions() {
-    SqliteStatement rows = database_.Prepare("SELECT * FROM session ORDER BY id");
     KeyframeId last = 0;
-    while (rows.Step()) {
-      RowReader row(rows, database_.path(), "session");
-      row.Integer();
+    ForEachRow(database_, "session", "id", [&](RowReader* row) {
+      row->Integer();
       MapSession session;
-      session.first_keyframe = row.Integer();
-      session.name = row.Text();
-      row.Finish();
+      session.first_keyframe = row->Integer();
+      session.name = row->Text();
+      row->Finish();
       if (session.first_keyframe < last || session.first_keyframe > next_keyframe_) {
-        row.Fail("it is out of order");
+        row->Fail("it is out of order");
       }
       last = session.first_keyframe;
       contents_.sessions.push_back(session);
-    }
+    });
   }
 
   void ReadSubMaps() {
-    SqliteStatement rows = database_.Prepare("SELECT * FROM submap ORDER BY id");
-    while (rows.Step()) {
-      RowReader row(rows, database_.path(), "submap");
+    ForEachRow(database_, "submap", "id", [&](RowReader* row) {
       SavedSubMap submap;
-      const int64_t id = row.Integer();
-      if (id < 0 || id > kMaxKeyframes) row.Fail("its id is not possible");
+      const int64_t id = row->Integer();
+      if (id < 0 || id > kMaxKeyframes) row->Fail("its id is not possible");
       submap.id = static_cast<int>(id);
-      if (!row.IsNull()) {
+      if (!row->IsNull()) {
         AxesEstimate axes;
-        for (double& value : axes.world_from_axes.coeffs()) value = row.Real();
-        axes.sigma = row.Real();
-        axes.deviation = row.Real();
+        for (double& value : axes.world_from_axes.coeffs()) value = row->Real();
+        axes.sigma = row->Real();
+        axes.deviation = row->Real();
         const bool is_valid = std::abs(axes.world_from_axes.norm() - 1.0) < 1e-9 &&
                               axes.sigma > 0.0 && axes.deviation >= 0.0;
-        if (!is_valid) row.Fail("its axes are not valid");
+        if (!is_valid) row->Fail("its axes are not valid");
         submap.axes = axes;
       } else {
         for (int i = 0; i < 5; ++i) {
-          if (!row.IsNull()) row.Fail("its axes are not complete");
+          if (!row->IsNull()) row->Fail("its axes are not complete");
         }
       }
-      submap.noise_scale = {row.Real(), row.Real(), row.Real()};
+      submap.noise_scale = {row->Real(), row->Real(), row->Real()};
       const NoiseScale& noise = submap.noise_scale;
-      if (version_ >= kFirstVersionWithPlanes) submap.planes.noise = row.Real();
+      if (version_ >= kFirstVersionWithPlanes) submap.planes.noise = row->Real();
       if (!(noise.point_depth > 0.0 && noise.line_pixel > 0.0 && noise.line_depth > 0.0 &&
             submap.planes.noise > 0.0)) {
-        row.Fail("its noise is not positive");
+        row->Fail("its noise is not positive");
       }
-      row.Finish();
+      row->Finish();
       contents_.submaps.push_back(std::move(submap));
-    }
+    });
   }
 
   void ReadKeyframes() {
@@ -224,12 +220,7 @@ class TableReader {
 
   template <typename L>
   void ReadLandmarks() {
-    SqliteStatement rows =
-        database_.Prepare(std::string("SELECT * FROM ") + L::kName + " ORDER BY id");
-    while (rows.Step()) {
-      RowReader row(rows, database_.path(), L::kName);
-      ReadLandmark<L>(&row);
-    }
+    ForEachRow(database_, L::kName, "id", [&](RowReader* row) { ReadLandmark<L>(row); });
     if (num_used_.Of<L>() != observations_.Of<L>().size()) {
       Fail("a feature observes a " + std::string(L::kName) + " that does not exist");
     }
@@ -274,35 +265,27 @@ class TableReader {
   }
 
   void ReadFalseDepths() {
-    SqliteStatement rows = database_.Prepare("SELECT * FROM false_depth ORDER BY landmark");
-    while (rows.Step()) {
-      RowReader row(rows, database_.path(), "false_depth");
-      false_depths_.insert(row.Integer());
-      row.Finish();
-    }
+    ForEachRow(database_, "false_depth", "landmark", [&](RowReader* row) {
+      false_depths_.insert(row->Integer());
+      row->Finish();
+    });
   }
 
   void ReadLoops() {
-    SqliteStatement rows = database_.Prepare("SELECT * FROM loop ORDER BY id");
-    while (rows.Step()) {
-      RowReader row(rows, database_.path(), "loop");
-      row.Integer();
+    ForEachRow(database_, "loop", "id", [&](RowReader* row) {
+      row->Integer();
       PoseGraphEdge loop;
-      loop.from = row.Integer();
-      loop.to = row.Integer();
-      loop.to_from_from = ReadPose(&row);
-      try {
-        loop.covariance = ReadCovariance(&row);
-      } catch (const BlobError& error) {
-        row.Fail(error.what());
-      }
-      row.Finish();
+      loop.from = row->Integer();
+      loop.to = row->Integer();
+      loop.to_from_from = ReadPose(row);
+      loop.covariance = ReadCovariance(row);
+      row->Finish();
       const bool is_valid = loop.from >= 0 && loop.to >= 0 && loop.from < next_keyframe_ &&
                             loop.to < next_keyframe_ &&
                             std::abs(loop.to_from_from.rotation().norm() - 1.0) < 1e-9;
-      if (!is_valid) row.Fail("it is not valid");
+      if (!is_valid) row->Fail("it is not valid");
       contents_.loops.push_back(loop);
-    }
+    });
   }
 
   const SqliteDatabase& database_;
