@@ -11,8 +11,8 @@
 #include <stdexcept>
 
 #include "apps/cli/command_log.h"
-#include "apps/cli/input_check.h"
 #include "apps/cli/run_files.h"
+#include "apps/cli/sequence_arguments.h"
 #include "msc_vo/geometry/erase_if.h"
 #include "msc_vo/results/benchmark_index.h"
 #include "msc_vo/results/benchmark_json.h"

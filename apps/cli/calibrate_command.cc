@@ -18,7 +18,6 @@
 #include "apps/cli/command_log.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/configuration_arguments.h"
-#include "apps/cli/input_check.h"
 #include "apps/cli/output_file.h"
 #include "apps/cli/sequence_arguments.h"
 #include "apps/cli/sequence_run.h"

@@ -12,7 +12,6 @@
 #include "apps/cli/commands.h"
 #include "apps/cli/configuration_arguments.h"
 #include "apps/cli/depth_fusion.h"
-#include "apps/cli/input_check.h"
 #include "apps/cli/map_mark.h"
 #include "apps/cli/modules.h"
 #include "apps/cli/output_file.h"

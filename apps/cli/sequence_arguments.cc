@@ -17,6 +17,7 @@
 #include "msc_vo/datasets/image_masks.h"
 #include "msc_vo/datasets/sequence.h"
 #include "msc_vo/datasets/sequence_calibration.h"
+#include "msc_vo/diagnosis/sequence_check.h"
 #include "msc_vo/openni/openni_source.h"
 #include "msc_vo/phone_recordings/folder_sequence.h"
 #include "msc_vo/ros_bag/bag_file.h"
@@ -124,6 +125,18 @@ RgbdDecoder OpenDecoder(const SequenceArguments& arguments, const Configuration&
   index.clipped_depth = FindClippedDepth(index);
   index.masks = OpenMasks(arguments.mask, arguments.mask_zero, index);
   return {std::move(index), std::move(calibration)};
+}
+
+std::vector<std::string> CheckInput(const RgbdDecoder& decoder, const std::string& advice) {
+  std::vector<std::string> warnings;
+  for (const Finding& finding : CheckSequenceQuickly(decoder)) {
+    if (finding.severity == Severity::kError) {
+      throw std::runtime_error(decoder.index().directory + ": " + Describe(finding) +
+                               " (msc_vo check tells more" + advice + ")");
+    }
+    warnings.push_back(Describe(finding));
+  }
+  return warnings;
 }
 
 void UseDepthSensorOf(const SequenceIndex& index, OdometryOptions* options) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -44,6 +45,11 @@ RgbdDecoder OpenDecoder(const SequenceArguments& arguments, const Configuration&
 
 /// Throws std::runtime_error if a folder is that of a sequence, or of its images.
 void RefuseSequenceFolder(const std::string& folder);
+
+/// Checks a sequence before its images are used, see CheckSequenceQuickly(). Returns the warnings.
+/// Throws std::runtime_error with the first error, with which no result is right; `advice` is added
+/// to its message.
+std::vector<std::string> CheckInput(const RgbdDecoder& decoder, const std::string& advice = "");
 
 /// Takes the depth sensor that the sequence names, unless the options give one.
 void UseDepthSensorOf(const SequenceIndex& index, OdometryOptions* options);
