@@ -20,7 +20,6 @@
 #include "apps/cli/published_sequences.h"
 #include "apps/cli/sequence_arguments.h"
 #include "apps/cli/sequence_run.h"
-#include "apps/cli/usage_error.h"
 #include "msc_vo/results/benchmark.h"
 #include "msc_vo/results/benchmark_json.h"
 #include "msc_vo/results/benchmark_merge.h"

@@ -9,8 +9,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "apps/cli/commands.h"
 #include "apps/cli/sequence_arguments.h"
-#include "apps/cli/usage_error.h"
 #include "msc_vo/datasets/recording_file.h"
 #include "msc_vo/ros_bag/bag_file.h"
 #include "msc_vo/text/files.h"

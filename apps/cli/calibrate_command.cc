@@ -21,7 +21,6 @@
 #include "apps/cli/output_file.h"
 #include "apps/cli/sequence_arguments.h"
 #include "apps/cli/sequence_run.h"
-#include "apps/cli/usage_error.h"
 #include "msc_vo/config/camera_options.h"
 #include "msc_vo/config/options_file.h"
 #include "msc_vo/datasets/image_size_fit.h"

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,13 @@ enum ExitCode {
   kExitUsage = 2,           ///< invalid command line
   kExitTrackingFailed = 3,  ///< fewer images than kMinTrackedRatio have an estimated pose
   kExitInterrupted = 130,   ///< by SIGINT, SIGTERM or SIGHUP; results so far are written
+};
+
+/// An error of the command line that is found after it was parsed. The command ends with
+/// kExitUsage.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
 };
 
 /// Footer of a sub-command's --help: an example and the exit codes.

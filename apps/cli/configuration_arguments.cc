@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "apps/cli/usage_error.h"
+#include "apps/cli/commands.h"
 #include "msc_vo/config/camera_options.h"
 #include "msc_vo/config/options_file.h"
 

@@ -8,7 +8,6 @@
 #include "apps/cli/argument_checks.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/run_export.h"
-#include "apps/cli/usage_error.h"
 
 namespace msc_vo {
 

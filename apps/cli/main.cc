@@ -18,7 +18,6 @@
 #include "apps/cli/commands.h"
 #include "apps/cli/interrupt_guard.h"
 #include "apps/cli/standard_streams.h"
-#include "apps/cli/usage_error.h"
 #include "msc_vo/text/shell_word.h"
 #include "msc_vo/text/similar_name.h"
 #include "msc_vo/version.h"

@@ -22,7 +22,6 @@
 #include "apps/cli/run_paths.h"
 #include "apps/cli/sequence_arguments.h"
 #include "apps/cli/sequence_run.h"
-#include "apps/cli/usage_error.h"
 #include "msc_vo/checkpoint/checkpoint_file.h"
 #include "msc_vo/config/options_file.h"
 #include "msc_vo/diagnosis/sequence_check.h"

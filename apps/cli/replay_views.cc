@@ -12,7 +12,6 @@
 #include "apps/cli/commands.h"
 #include "apps/cli/image_feed.h"
 #include "apps/cli/sequence_arguments.h"
-#include "apps/cli/usage_error.h"
 #include "msc_vo/logging/logger.h"
 #include "msc_vo/report/viewer_page.h"
 #include "msc_vo/results/report_frame.h"

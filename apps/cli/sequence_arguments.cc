@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "apps/cli/commands.h"
 #include "apps/cli/map_mark.h"
 #include "apps/cli/modules.h"
-#include "apps/cli/usage_error.h"
 #include "msc_vo/datasets/camera_preset.h"
 #include "msc_vo/datasets/clipped_depth_search.h"
 #include "msc_vo/datasets/image_masks.h"

@@ -10,7 +10,6 @@
 
 #include "apps/cli/commands.h"
 #include "apps/cli/configuration_arguments.h"
-#include "apps/cli/usage_error.h"
 #include "msc_vo/recording/window_file.h"
 #include "msc_vo/recording/window_json.h"
 #include "msc_vo/text/files.h"

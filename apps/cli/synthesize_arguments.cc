@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "apps/cli/argument_checks.h"
-#include "apps/cli/usage_error.h"
+#include "apps/cli/commands.h"
 #include "msc_vo/geometry/angles.h"
 #include "msc_vo/text/text_file.h"
 

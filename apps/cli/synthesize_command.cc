@@ -16,7 +16,6 @@
 #include "apps/cli/progress.h"
 #include "apps/cli/synthesize_arguments.h"
 #include "apps/cli/synthesized_folder.h"
-#include "apps/cli/usage_error.h"
 #include "msc_vo/datasets/calibration.h"
 #include "msc_vo/datasets/camera_file.h"
 #include "msc_vo/results/ply_file.h"
