@@ -13,6 +13,7 @@
 #include <pybind11/numpy.h>
 
 #include "apps/python/plain_array.h"
+#include "msc_vo/camera/lens_distortion.h"
 #include "msc_vo/geometry/rigid3.h"
 #include "msc_vo/geometry/timed_pose.h"
 
@@ -122,5 +123,9 @@ pybind11::array ImageArray(const cv::Mat& image) {
                                                   sizeof(T)};
   return pybind11::array_t<T>({image.rows, image.cols}, strides, image.ptr<T>());
 }
+
+/// A Lens, the coefficients k1 k2 p1 p2 [k3], or None. Throws std::invalid_argument that names the
+/// argument.
+LensDistortion LensArgument(const pybind11::object& value, const std::string& name);
 
 }  // namespace msc_vo

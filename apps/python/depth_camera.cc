@@ -11,7 +11,6 @@
 
 #include "apps/python/arrays.h"
 #include "apps/python/bindings.h"
-#include "apps/python/lens_argument.h"
 #include "msc_vo/camera/lens_validity.h"
 #include "msc_vo/sensor/depth_registration.h"
 #include "msc_vo/text/format_text.h"

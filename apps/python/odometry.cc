@@ -20,7 +20,6 @@
 #include "apps/python/contexts.h"
 #include "apps/python/factors.h"
 #include "apps/python/fork_guard.h"
-#include "apps/python/lens_argument.h"
 #include "apps/python/map.h"
 #include "apps/python/option_table.h"
 #include "apps/python/python_names.h"
