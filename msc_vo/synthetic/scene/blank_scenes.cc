@@ -62,7 +62,7 @@ void AddZigZag(const Eigen::Vector3d& from, const Eigen::Vector3d& along, double
 
 }  // namespace
 
-Scene MakeBare(uint64_t seed) {
+Scene MakeBare(uint64_t seed, const WalkOptions& /*walk*/) {
   SceneBuilder builder(seed);
   Random& random = builder.random();
   const double x = 2.6 + random.Uniform(-0.1, 0.2), y = 2.3 + random.Uniform(-0.1, 0.2);
@@ -101,7 +101,7 @@ Scene MakeBare(uint64_t seed) {
   return builder.scene();
 }
 
-Scene MakeBlank(uint64_t seed) {
+Scene MakeBlank(uint64_t seed, const WalkOptions& /*walk*/) {
   SceneBuilder builder(seed);
   Random& random = builder.random();
   const double x = 2.2 + random.Uniform(-0.2, 0.2), y = 1.9 + random.Uniform(-0.2, 0.2);
@@ -119,7 +119,7 @@ Scene MakeBlank(uint64_t seed) {
   return builder.scene();
 }
 
-Scene MakeZigZag(uint64_t seed) {
+Scene MakeZigZag(uint64_t seed, const WalkOptions& /*walk*/) {
   SceneBuilder builder(seed);
   Random& random = builder.random();
   const Texture white = builder.NewTexture(TextureKind::kPlain, kPlainWhite);
@@ -134,7 +134,7 @@ Scene MakeZigZag(uint64_t seed) {
   return builder.scene();
 }
 
-Scene MakeDeadEnd(uint64_t seed) {
+Scene MakeDeadEnd(uint64_t seed, const WalkOptions& /*walk*/) {
   SceneBuilder builder(seed);
   Random& random = builder.random();
   const double x = 4.5, y = 0.95;
@@ -151,7 +151,7 @@ Scene MakeDeadEnd(uint64_t seed) {
   return builder.scene();
 }
 
-Scene MakePoster(uint64_t seed) {
+Scene MakePoster(uint64_t seed, const WalkOptions& /*walk*/) {
   SceneBuilder builder(seed);
   Random& random = builder.random();
   const double x = 3.0, y = 2.0;

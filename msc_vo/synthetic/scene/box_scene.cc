@@ -43,7 +43,7 @@ void AddOrbit(SceneBuilder* builder) {
 
 }  // namespace
 
-Scene MakeBox(uint64_t seed) {
+Scene MakeBox(uint64_t seed, const WalkOptions& /*walk*/) {
   SceneBuilder builder(seed);
   Random& random = builder.random();
   const Texture floor = builder.NewTexture(TextureKind::kPlaster, 0.75f * kGrey);

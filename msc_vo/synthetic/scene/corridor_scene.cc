@@ -31,7 +31,7 @@ void AddSide(const Rigid3& side_frame, const Texture& skirting, SceneBuilder* bu
 
 }  // namespace
 
-Scene MakeCorridor(uint64_t seed) {
+Scene MakeCorridor(uint64_t seed, const WalkOptions& /*walk*/) {
   SceneBuilder builder(seed);
   Random& random = builder.random();
   const double x = 0.5 * kLength, y = 0.5 * kWidth;

@@ -90,7 +90,7 @@ void AddRoundTrip(SceneBuilder* builder) {
 
 }  // namespace
 
-Scene MakeHouse(uint64_t seed) {
+Scene MakeHouse(uint64_t seed, const WalkOptions& /*walk*/) {
   SceneBuilder builder(seed);
   const Texture floor =
       builder.NewTexture(TextureKind::kPlanks, {0.62f, 0.45f, 0.28f}, {0.22f, 0.15f, 0.10f});

@@ -76,7 +76,7 @@ void FurnishMiddle(const RoomSize& size, SceneBuilder* builder) {
 
 }  // namespace
 
-Scene MakeRoom(uint64_t seed) {
+Scene MakeRoom(uint64_t seed, const WalkOptions& /*walk*/) {
   SceneBuilder builder(seed);
   Random& random = builder.random();
   RoomSize size;

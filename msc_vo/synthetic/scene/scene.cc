@@ -4,6 +4,7 @@
 #include "msc_vo/synthetic/scene/scene.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 
 #include <Eigen/Geometry>
@@ -12,6 +13,24 @@
 #include "msc_vo/synthetic/scene/tour.h"
 
 namespace msc_vo {
+
+namespace {
+
+struct NamedScene {
+  const char* name;
+  Scene (*make)(uint64_t seed, const WalkOptions& walk);
+};
+
+// In the order of SceneKind.
+constexpr NamedScene kScenes[] = {
+    {"room", MakeRoom},       {"corridor", MakeCorridor}, {"bare", MakeBare},
+    {"slanted", MakeSlanted}, {"house", MakeHouse},       {"box", MakeBox},
+    {"rooms", MakeRooms},     {"mirrored", MakeMirrored}, {"floors", MakeFloors},
+    {"desks", MakeDesks},     {"gallery", MakeGallery},   {"blank", MakeBlank},
+    {"zigzag", MakeZigZag},   {"dead-end", MakeDeadEnd},  {"poster", MakePoster}};
+static_assert(std::size(kScenes) == static_cast<size_t>(SceneKind::kPoster) + 1);
+
+}  // namespace
 
 double Quad::Distance(const Eigen::Vector3d& x_in_world) const {
   const Eigen::Vector3d d = x_in_world - origin;
@@ -62,9 +81,11 @@ std::optional<double> Scene::CastRay(const Eigen::Vector3d& origin,
 }
 
 const std::vector<std::string>& SceneKindNames() {
-  static const std::vector<std::string> names = {
-      "room",   "corridor", "bare",    "slanted", "house",  "box",      "rooms", "mirrored",
-      "floors", "desks",    "gallery", "blank",   "zigzag", "dead-end", "poster"};
+  static const auto names = [] {
+    std::vector<std::string> all;
+    for (const NamedScene& scene : kScenes) all.emplace_back(scene.name);
+    return all;
+  }();
   return names;
 }
 
@@ -80,48 +101,8 @@ bool SupportsReturns(SceneKind kind) {
          kind == SceneKind::kDesks;
 }
 
-namespace {
-
-Scene MakeWithTour(SceneKind kind, uint64_t seed, const WalkOptions& walk) {
-  switch (kind) {
-    case SceneKind::kRoom:
-      return MakeRoom(seed);
-    case SceneKind::kCorridor:
-      return MakeCorridor(seed);
-    case SceneKind::kBare:
-      return MakeBare(seed);
-    case SceneKind::kSlanted:
-      return MakeSlanted(seed);
-    case SceneKind::kHouse:
-      return MakeHouse(seed);
-    case SceneKind::kBox:
-      return MakeBox(seed);
-    case SceneKind::kRooms:
-      return MakeRooms(seed, walk);
-    case SceneKind::kMirrored:
-      return MakeMirrored(seed, walk);
-    case SceneKind::kFloors:
-      return MakeFloors(seed, walk);
-    case SceneKind::kDesks:
-      return MakeDesks(seed, walk);
-    case SceneKind::kGallery:
-      return MakeGallery(seed, walk);
-    case SceneKind::kBlank:
-      return MakeBlank(seed);
-    case SceneKind::kZigZag:
-      return MakeZigZag(seed);
-    case SceneKind::kDeadEnd:
-      return MakeDeadEnd(seed);
-    case SceneKind::kPoster:
-      return MakePoster(seed);
-  }
-  return {};
-}
-
-}  // namespace
-
 Scene MakeScene(SceneKind kind, uint64_t seed, const WalkOptions& walk) {
-  Scene scene = MakeWithTour(kind, seed, walk);
+  Scene scene = kScenes[static_cast<size_t>(kind)].make(seed, walk);
   if (scene.tour_is_loop && walk.path != 1) scene.tour = OtherTour(scene, seed, walk.path);
   return scene;
 }

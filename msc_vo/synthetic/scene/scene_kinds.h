@@ -9,17 +9,18 @@
 
 namespace msc_vo {
 
-/// One function per SceneKind, called by MakeScene().
-Scene MakeRoom(uint64_t seed);
-Scene MakeCorridor(uint64_t seed);
-Scene MakeBare(uint64_t seed);
-Scene MakeSlanted(uint64_t seed);
-Scene MakeHouse(uint64_t seed);
-Scene MakeBox(uint64_t seed);
-Scene MakeBlank(uint64_t seed);
-Scene MakeZigZag(uint64_t seed);
-Scene MakeDeadEnd(uint64_t seed);
-Scene MakePoster(uint64_t seed);
+/// One function per SceneKind, called by MakeScene(). `walk` matters to places that look alike
+/// only.
+Scene MakeRoom(uint64_t seed, const WalkOptions& walk);
+Scene MakeCorridor(uint64_t seed, const WalkOptions& walk);
+Scene MakeBare(uint64_t seed, const WalkOptions& walk);
+Scene MakeSlanted(uint64_t seed, const WalkOptions& walk);
+Scene MakeHouse(uint64_t seed, const WalkOptions& walk);
+Scene MakeBox(uint64_t seed, const WalkOptions& walk);
+Scene MakeBlank(uint64_t seed, const WalkOptions& walk);
+Scene MakeZigZag(uint64_t seed, const WalkOptions& walk);
+Scene MakeDeadEnd(uint64_t seed, const WalkOptions& walk);
+Scene MakePoster(uint64_t seed, const WalkOptions& walk);
 Scene MakeRooms(uint64_t seed, const WalkOptions& walk);
 Scene MakeMirrored(uint64_t seed, const WalkOptions& walk);
 Scene MakeFloors(uint64_t seed, const WalkOptions& walk);

@@ -113,7 +113,7 @@ void FurnishAttic(SceneBuilder* builder) {
 
 }  // namespace
 
-Scene MakeSlanted(uint64_t seed) {
+Scene MakeSlanted(uint64_t seed, const WalkOptions& /*walk*/) {
   SceneBuilder builder(seed);
   Random& random = builder.random();
   AddAtticShell(&builder);
