@@ -13,12 +13,6 @@ namespace msc_vo {
 
 namespace {
 
-const Option* FindOption(const std::vector<Option>& options, const std::string& path) {
-  const auto option = std::find_if(options.begin(), options.end(),
-                                   [&](const Option& known) { return known.path == path; });
-  return option == options.end() ? nullptr : &*option;
-}
-
 // Whether the command line sets the option.
 bool IsSet(const std::string& path, const ConfigurationArguments& arguments) {
   return std::any_of(arguments.settings.begin(), arguments.settings.end(),
@@ -27,12 +21,11 @@ bool IsSet(const std::string& path, const ConfigurationArguments& arguments) {
 
 void Set(const std::string& path, const std::string& value, Configuration* configuration) {
   const std::vector<Option> options = ListOptions(configuration);
-  const Option* option = FindOption(options, path);
+  const Option* option = FindByPath(options, path);
   if (!option) {
-    const Option* similar = FindSimilar(options, path);
-    throw UsageError("--set: unknown option '" + path + "'" +
-                     (similar ? "; did you mean '" + similar->path + "'?"
-                              : "; msc_vo replay --print-config --all lists the known ones"));
+    throw UsageError("--set: " +
+                     UnknownOptionMessage(
+                         options, path, "msc_vo replay --print-config --all lists the known ones"));
   }
   std::string expected;
   if (!SetOption(*option, value, &expected)) {
@@ -118,7 +111,7 @@ std::vector<std::string> DescribeIgnoredOptions(const ConfigurationArguments& ar
 std::vector<std::string> OptionChoices(const std::string& path) {
   Configuration defaults;
   const std::vector<Option> options = ListOptions(&defaults);
-  return std::get<Choice>(FindOption(options, path)->value).names;
+  return std::get<Choice>(FindByPath(options, path)->value).names;
 }
 
 }  // namespace msc_vo

@@ -47,10 +47,6 @@ std::vector<OptionText> ChangedOptions(const Configuration& configuration);
 /// The option with this path; null if there is none.
 const Option* FindByPath(const std::vector<Option>& options, const std::string& path);
 
-/// The option whose path is most similar to `path`, for "did you mean ...?"; null if none is
-/// similar.
-const Option* FindSimilar(const std::vector<Option>& options, const std::string& path);
-
 /// The error message for a path that is none of `options`: "unknown option 'x'; did you mean 'y'?",
 /// or "unknown option 'x'; ADVICE" if none is similar.
 std::string UnknownOptionMessage(const std::vector<Option>& options, const std::string& path,

@@ -151,6 +151,24 @@ std::string Join(const std::vector<std::string>& names) {
 
 std::string LastPart(const std::string& path) { return path.substr(path.rfind('.') + 1); }
 
+// The option whose path is most similar to `path`; null if none is similar.
+const Option* FindSimilar(const std::vector<Option>& options, const std::string& path) {
+  const Option* nearest = nullptr;
+  int smallest = MaxTypingErrors(LastPart(path)) + 1;
+  int smallest_of_path = 0;  // decides ties
+  for (const Option& option : options) {
+    // A correct name in a wrong section counts as one error.
+    const int of_path = EditDistance(path, option.path);
+    const int distance = std::min(of_path, EditDistance(LastPart(path), LastPart(option.path)) + 1);
+    if (distance < smallest || (distance == smallest && (!nearest || of_path < smallest_of_path))) {
+      smallest = distance;
+      smallest_of_path = of_path;
+      nearest = &option;
+    }
+  }
+  return nearest;
+}
+
 }  // namespace
 
 bool SetOption(const Option& option, const std::string& text, std::string* expected) {
@@ -185,23 +203,6 @@ const Option* FindByPath(const std::vector<Option>& options, const std::string& 
   const auto option = std::find_if(options.begin(), options.end(),
                                    [&](const Option& known) { return known.path == path; });
   return option == options.end() ? nullptr : &*option;
-}
-
-const Option* FindSimilar(const std::vector<Option>& options, const std::string& path) {
-  const Option* nearest = nullptr;
-  int smallest = MaxTypingErrors(LastPart(path)) + 1;
-  int smallest_of_path = 0;  // decides ties
-  for (const Option& option : options) {
-    // A correct name in a wrong section counts as one error.
-    const int of_path = EditDistance(path, option.path);
-    const int distance = std::min(of_path, EditDistance(LastPart(path), LastPart(option.path)) + 1);
-    if (distance < smallest || (distance == smallest && (!nearest || of_path < smallest_of_path))) {
-      smallest = distance;
-      smallest_of_path = of_path;
-      nearest = &option;
-    }
-  }
-  return nearest;
 }
 
 std::string UnknownOptionMessage(const std::vector<Option>& options, const std::string& path,
