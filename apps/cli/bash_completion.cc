@@ -6,23 +6,18 @@
 #include <vector>
 
 #include "apps/cli/declarations.h"
+#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 
 namespace {
-
-std::string Join(const std::vector<std::string>& words, const std::string& separator) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
-  return text;
-}
 
 std::string OptionNames(const CLI::App& command) {
   std::vector<std::string> names;
   for (const CLI::Option* option : VisibleOptions(command)) {
     for (const std::string& name : NamesOf(*option)) names.push_back(name);
   }
-  return Join(names, " ");
+  return Joined(names, " ");
 }
 
 // Branches of `case $command:$previous` for the options of a command that take a value. A value
@@ -36,9 +31,9 @@ std::string ValueCases(const std::string& name, const CLI::App& command) {
       patterns.push_back(name + ":" + option_name);
     }
     const std::vector<std::string> choices = ChoicesOf(*option);
-    cases += "    " + Join(patterns, "|") + ")\n";
+    cases += "    " + Joined(patterns, "|") + ")\n";
     if (!choices.empty()) {
-      cases += "      COMPREPLY=($(compgen -W '" + Join(choices, " ") + "' -- \"$current\"))\n";
+      cases += "      COMPREPLY=($(compgen -W '" + Joined(choices, " ") + "' -- \"$current\"))\n";
     }
     cases += "      return ;;\n";
   }
@@ -57,7 +52,7 @@ std::string FormatBashCompletion(const CLI::App& app) {
     values += ValueCases(command->get_name(), *command);
     option_cases += "    " + command->get_name() + ") words='" + OptionNames(*command) + "' ;;\n";
   }
-  options += " " + Join(commands, " ") + "' ;;\n" + option_cases;
+  options += " " + Joined(commands, " ") + "' ;;\n" + option_cases;
   return "# Completion of " + app.get_name() +
          " for bash; generated from the declarations of its command line.\n"
          "_msc_vo() {\n"
@@ -66,7 +61,7 @@ std::string FormatBashCompletion(const CLI::App& app) {
          "  for ((i = 1; i < COMP_CWORD; ++i)); do\n"
          "    case ${COMP_WORDS[i]} in\n"
          "      " +
-         Join(commands, "|") +
+         Joined(commands, "|") +
          ") command=${COMP_WORDS[i]}; break ;;\n"
          "    esac\n"
          "  done\n"

@@ -20,6 +20,7 @@
 #include "apps/cli/standard_streams.h"
 #include "msc_vo/text/shell_word.h"
 #include "msc_vo/text/similar_name.h"
+#include "msc_vo/text/text_file.h"
 #include "msc_vo/version.h"
 
 namespace msc_vo {
@@ -63,17 +64,15 @@ void DisableOpenCvThreads() { cv::setNumThreads(1); }
 void CheckSubcommand(const std::vector<Command>& commands, const std::string& name) {
   if (name.rfind('-', 0) == 0) return;
   std::vector<std::string> names;
-  std::string list;
   for (const Command& command : commands) {
     if (command.arguments->get_name() == name) return;
     if (command.arguments->get_group().empty()) continue;  // hidden
     names.push_back(command.arguments->get_name());
-    list += (list.empty() ? "" : ", ") + names.back();
   }
   const std::optional<std::string> similar = FindSimilarName(names, name);
   throw CLI::ExtrasError("msc_vo: error: unknown command '" + name + "'" +
                              (similar ? "; did you mean '" + *similar + "'?" : "") +
-                             "\nCommands: " + list,
+                             "\nCommands: " + Joined(names, ", "),
                          CLI::ExitCodes::ExtrasError);
 }
 

@@ -13,6 +13,7 @@
 #include "apps/cli/output_file.h"
 #include "msc_vo/exports/colmap_model.h"
 #include "msc_vo/text/files.h"
+#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 
@@ -57,9 +58,7 @@ std::string CheckExportText(const std::string& text) {
   if (std::find(formats.begin(), formats.end(), FormatOf(text)) != formats.end()) {
     return FormatOf(text) == "ply" ? CheckPlyFileName(path) : "";
   }
-  std::string names;
-  for (const std::string& name : formats) names += (names.empty() ? "" : ", ") + name;
-  return "'" + FormatOf(text) + "' is no format; formats: " + names;
+  return "'" + FormatOf(text) + "' is no format; formats: " + Joined(formats, ", ");
 }
 
 std::vector<RunExport> PlanExports(const ReplayArguments& arguments, const RgbdDecoder& sequence,

@@ -55,8 +55,7 @@ LensDistortion ParseLens(const std::string& text) {
 
 // Checks the name of a depth sensor.
 CLI::Validator SensorName() {
-  std::string names;
-  for (const std::string& name : SyntheticDepthNames()) names += (names.empty() ? "" : ",") + name;
+  const std::string names = Joined(SyntheticDepthNames(), ",");
   return CLI::Validator(
       [names](const std::string& text) {
         return SyntheticDepthFromName(text)

@@ -143,12 +143,6 @@ struct Formatter {
   std::string operator()(const Choice& choice) const { return choice.names.at(choice.get()); }
 };
 
-std::string Join(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
 std::string LastPart(const std::string& path) { return path.substr(path.rfind('.') + 1); }
 
 // The option whose path is most similar to `path`; null if none is similar.
@@ -178,7 +172,7 @@ bool SetOption(const Option& option, const std::string& text, std::string* expec
 std::string FormatOption(const Option& option) { return std::visit(Formatter{}, option.value); }
 
 std::string FormatValidValues(const Option& option) {
-  if (const Choice* choice = std::get_if<Choice>(&option.value)) return Join(choice->names);
+  if (const Choice* choice = std::get_if<Choice>(&option.value)) return Joined(choice->names, ", ");
   if (const NumberList* list = std::get_if<NumberList>(&option.value)) {
     return std::to_string(list->size) + " numbers";
   }

@@ -50,9 +50,8 @@ struct PlyElement {
 };
 
 [[noreturn]] void Fail(const TextLine& line, const std::string& expected) {
-  std::string text;
-  for (const std::string& field : line.fields) text += (text.empty() ? "" : " ") + field;
-  throw std::runtime_error(line.Where() + ": expected " + expected + ", found '" + text + "'");
+  throw std::runtime_error(line.Where() + ": expected " + expected + ", found '" +
+                           Joined(line.fields, " ") + "'");
 }
 
 // Whether the value is a whole number that fits an int.

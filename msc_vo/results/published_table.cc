@@ -8,6 +8,7 @@
 #include "msc_vo/report/html_text.h"
 #include "msc_vo/results/internal/json_value.h"
 #include "msc_vo/text/format_text.h"
+#include "msc_vo/text/text_file.h"
 #include "msc_vo/version.h"
 
 namespace msc_vo {
@@ -82,12 +83,8 @@ std::string Origin(const PublishedTable& table) {
 }
 
 std::string DescribeMissing(const PublishedSequence& sequence, const std::string& root) {
-  std::string folders;
-  for (const std::string& folder : sequence.folders) {
-    folders += (folders.empty() ? "" : " or ") + folder;
-  }
-  return sequence.name + " (" + sequence.dataset + "): wanted as the folder " + folders + " in " +
-         root + "; it can be had from " + sequence.url;
+  return sequence.name + " (" + sequence.dataset + "): wanted as the folder " +
+         Joined(sequence.folders, " or ") + " in " + root + "; it can be had from " + sequence.url;
 }
 
 }  // namespace

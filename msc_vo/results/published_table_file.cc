@@ -59,8 +59,7 @@ class TableReader {
   }
 
   void CheckKeys(const YAML::Node& node, const std::vector<std::string>& keys) const {
-    std::string names;
-    for (const std::string& key : keys) names += (names.empty() ? "" : ", ") + key;
+    const std::string names = Joined(keys, ", ");
     if (!node.IsMap()) Fail(node, "expected a section with the keys " + names);
     for (const auto& entry : node) {
       if (std::find(keys.begin(), keys.end(), entry.first.Scalar()) != keys.end()) continue;

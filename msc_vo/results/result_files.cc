@@ -108,9 +108,7 @@ std::string FormatFramesCsv(const std::vector<FrameResult>& frames) {
     add(SigmaColumns(prefix));
     add(CorrelationColumns(prefix));
   }
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ",") + name;
-  text += "\n";
+  std::string text = Joined(names, ",") + "\n";
   for (const FrameResult& frame : frames) text += FormatFrameRow(frame);
   return text;
 }

@@ -95,6 +95,12 @@ std::string Lowercase(std::string text) {
   return text;
 }
 
+std::string Joined(const std::vector<std::string>& words, const std::string& separator) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
+  return text;
+}
+
 std::string Trimmed(const std::string& text) {
   const size_t begin = text.find_first_not_of(kBlanks);
   if (begin == std::string::npos) return "";

@@ -46,6 +46,8 @@ constexpr bool IsLetterOrDigit(char c) {
 }
 /// Returns `text` in lower case; changes only the letters of ASCII.
 std::string Lowercase(std::string text);
+/// Returns the words with `separator` between them; none follows empty words at the beginning.
+std::string Joined(const std::vector<std::string>& words, const std::string& separator);
 /// Returns `text` without leading and trailing blanks, tabs and line ends.
 std::string Trimmed(const std::string& text);
 /// Parses `text` as a number, independent of the locale; none unless all of it is one number.
