@@ -258,7 +258,6 @@ Command AddBenchmarkCommand(CLI::App* app) {
                  "Keep the finished runs in the output folder and run the others")
       ->excludes("--merge");
   AddLayoutArguments(command, &arguments->layout);
-  AddMaskArguments(command, &arguments->layout);
   AddConfigurationArguments(command, &arguments->configuration);
   AddCameraFileArgument(command, &arguments->configuration);
   command->add_option("--modes", arguments->modes, "Comma-separated list; default: all modes")

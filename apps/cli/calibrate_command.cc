@@ -138,7 +138,6 @@ Command AddCalibrateCommand(CLI::App* app) {
   command->add_option("sequences", arguments->sequences, "Folders with sequences of one camera")
       ->required();
   AddLayoutArguments(command, &arguments->layout);
-  AddMaskArguments(command, &arguments->layout);
   AddConfigurationArguments(command, &arguments->configuration);
   AddCameraFileArgument(command, &arguments->configuration);
   AddDepthSensorArgument(command, &arguments->configuration);

@@ -93,7 +93,6 @@ Command AddCheckCommand(CLI::App* app) {
   CLI::App* command = app->add_subcommand(
       "check", "Diagnose a sequence: files, time stamps, images, depth, calibration, ground truth");
   AddSequenceArguments(command, &arguments->sequence)->required();
-  AddMaskArguments(command, &arguments->sequence);
   AddConfigurationArguments(command, &arguments->configuration);
   AddCameraFileArgument(command, &arguments->configuration);
   AddDepthSensorArgument(command, &arguments->configuration);

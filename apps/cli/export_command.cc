@@ -62,7 +62,6 @@ Command AddExportCommand(CLI::App* app) {
                       "Sequence whose images are used; default: that of the results, for colmap "
                       "numbers");
   AddLayoutArguments(command, &arguments->sequence);
-  AddMaskArguments(command, &arguments->sequence);
   AddConfigurationArguments(command, &arguments->configuration);
   AddCameraFileArgument(command, &arguments->configuration);
   command->add_option("--every", arguments->poses.every, "Export every N-th pose only")

@@ -103,7 +103,6 @@ Command AddFuseCommand(CLI::App* app) {
   CLI::App* command = app->add_subcommand(
       "fuse", "Fuse the depth images along a trajectory into a coloured surface");
   AddSequenceArguments(command, &arguments->sequence)->required();
-  AddMaskArguments(command, &arguments->sequence);
   command
       ->add_option(
           "trajectory", arguments->trajectory,

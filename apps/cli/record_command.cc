@@ -174,7 +174,6 @@ Command AddRecordCommand(CLI::App* app) {
   CLI::App* command = app->add_subcommand(
       "record", "Write a camera, a ROS bag or another sequence as a folder in TUM layout");
   AddSequenceArguments(command, &arguments->sequence)->required();
-  AddMaskArguments(command, &arguments->sequence);
   command->add_option("folder", arguments->folder, "Folder to write; must be empty or new")
       ->required();
   AddConfigurationArguments(command, &arguments->configuration);

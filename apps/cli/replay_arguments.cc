@@ -97,7 +97,6 @@ CLI::App* AddReplayArguments(CLI::App* app, ReplayArguments* arguments) {
   CLI::App* command =
       app->add_subcommand("replay", "Estimate the camera's trajectory from an RGB-D sequence");
   AddSequenceArguments(command, &arguments->sequence);
-  AddMaskArguments(command, &arguments->sequence);
   AddConfigurationArguments(command, &arguments->configuration);
   AddCameraFileArgument(command, &arguments->configuration);
   AddOutputArguments(command, arguments);

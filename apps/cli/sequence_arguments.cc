@@ -101,9 +101,6 @@ void AddLayoutArguments(CLI::App* command, SequenceArguments* arguments) {
                    "Least confidence of the depths of a telephone that are used")
       ->check(CLI::IsMember({"low", "medium", "high"}))
       ->capture_default_str();
-}
-
-void AddMaskArguments(CLI::App* command, SequenceArguments* arguments) {
   CLI::Option* const mask = command->add_option(
       "--mask", arguments->mask,
       "Image whose pixels that are not zero are left out of all images (a robot's own arm), or "

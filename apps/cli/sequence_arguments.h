@@ -29,12 +29,9 @@ struct SequenceArguments {
 /// optional unless the caller requires it.
 CLI::Option* AddSequenceArguments(CLI::App* command, SequenceArguments* arguments);
 
-/// Declares --format, --camera, --color-topic, --depth-topic and --min-confidence only, for
-/// commands with several sequences.
+/// Declares --format, --camera, --color-topic, --depth-topic, --min-confidence, --mask and
+/// --mask-zero only, for commands with several sequences.
 void AddLayoutArguments(CLI::App* command, SequenceArguments* arguments);
-
-/// Declares --mask and --mask-zero, for commands that use the images.
-void AddMaskArguments(CLI::App* command, SequenceArguments* arguments);
 
 enum class LiveCameras { kAllowed, kRefused };
 
