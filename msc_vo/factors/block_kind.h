@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <cstddef>
+
 namespace msc_vo {
 
 /// Kinds of parameter blocks. The kind says what the numbers mean; the size does not: three numbers
@@ -17,19 +19,9 @@ enum class BlockKind {
 
 /// Number of parameters of a block; 0 for kExtra, which has no size of its own.
 constexpr int BlockSize(BlockKind kind) {
-  switch (kind) {
-    case BlockKind::kPose:
-      return 7;
-    case BlockKind::kPoint:
-      return 3;
-    case BlockKind::kLine:
-      return 6;
-    case BlockKind::kAxes:
-      return 4;
-    case BlockKind::kExtra:
-      break;
-  }
-  return 0;
+  constexpr int kSizes[] = {7, 3, 6, 4, 0};
+  static_assert(sizeof(kSizes) / sizeof(int) == static_cast<size_t>(BlockKind::kExtra) + 1);
+  return kSizes[static_cast<size_t>(kind)];
 }
 
 }  // namespace msc_vo
