@@ -15,7 +15,6 @@
 #include "msc_vo/map/last_tracked_pose.h"
 #include "msc_vo/mapping/tracking_counts.h"
 #include "msc_vo/matching/frame_matches.h"
-#include "msc_vo/matching/revisit.h"
 #include "msc_vo/self_calibration/recent_pairs.h"
 #include "msc_vo/sensor/recorded_image.h"
 #include "msc_vo/structure/axis_evidence.h"

@@ -8,7 +8,7 @@
 #include "msc_vo/geometry/pose_covariance.h"
 #include "msc_vo/map/map.h"
 #include "msc_vo/map/map_alignment.h"
-#include "msc_vo/matching/revisit.h"
+#include "msc_vo/matching/frame_matches.h"
 
 namespace msc_vo {
 

@@ -14,7 +14,6 @@
 #include "msc_vo/map/last_tracked_pose.h"
 #include "msc_vo/map/plane_landmark.h"
 #include "msc_vo/matching/frame_matches.h"
-#include "msc_vo/matching/revisit.h"
 #include "msc_vo/pose_estimation/pose_optimization.h"
 #include "msc_vo/tracking/tracking_status.h"
 
