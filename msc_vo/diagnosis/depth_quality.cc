@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "msc_vo/geometry/quantile.h"
-#include "msc_vo/sensor/usable_depth.h"
+#include "msc_vo/sensor/depth_limits.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {

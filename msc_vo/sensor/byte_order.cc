@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "msc_vo/sensor/usable_depth.h"
+#include "msc_vo/sensor/depth_limits.h"
 
 namespace msc_vo {
 

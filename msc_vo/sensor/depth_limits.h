@@ -27,4 +27,8 @@ struct DepthLimits {
   }
 };
 
+/// Whether images with this median depth, metres, can be of an RGB-D camera: otherwise no feature
+/// has a usable depth, and the unit of the values is another one.
+inline bool IsUsableDepth(double median) { return median >= 0.1 && median <= 40.0; }
+
 }  // namespace msc_vo
