@@ -255,21 +255,10 @@ class ThreadedRunner : public MappingRunner {
 
 }  // namespace
 
-std::unique_ptr<MappingRunner> MakeInlineRunner(Mapper* mapper) {
-  return std::make_unique<InlineRunner>(mapper);
-}
-
-std::unique_ptr<MappingRunner> MakeCalledRunner(Mapper* mapper) {
-  return std::make_unique<CalledRunner>(mapper);
-}
-
-std::unique_ptr<MappingRunner> MakeThreadedRunner(Mapper* mapper) {
-  return std::make_unique<ThreadedRunner>(mapper);
-}
-
 std::unique_ptr<MappingRunner> MakeRunner(int threads, bool external_mapping, Mapper* mapper) {
-  if (external_mapping) return MakeCalledRunner(mapper);
-  return threads > 1 ? MakeThreadedRunner(mapper) : MakeInlineRunner(mapper);
+  if (external_mapping) return std::make_unique<CalledRunner>(mapper);
+  if (threads > 1) return std::make_unique<ThreadedRunner>(mapper);
+  return std::make_unique<InlineRunner>(mapper);
 }
 
 }  // namespace msc_vo

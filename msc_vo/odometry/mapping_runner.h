@@ -56,13 +56,10 @@ class MappingRunner {
   static constexpr int kMaxWaiting = 2;
 };
 
-/// The mapper must outlive the runner, and must not be used by others while a keyframe is pending
-/// (submitted, and its steps not yet taken).
-std::unique_ptr<MappingRunner> MakeInlineRunner(Mapper* mapper);
-std::unique_ptr<MappingRunner> MakeThreadedRunner(Mapper* mapper);
-/// Works in Run(), and in Take() and Submit() where these would have to wait.
-std::unique_ptr<MappingRunner> MakeCalledRunner(Mapper* mapper);
-/// One of these, as the options of the same names say (OdometryOptions).
+/// Makes a runner as the options of the same names say (OdometryOptions). With `external_mapping`,
+/// it works in Run(), and in Take() and Submit() where these would have to wait. The mapper must
+/// outlive the runner, and must not be used by others while a keyframe is pending (submitted, and
+/// its steps not yet taken).
 std::unique_ptr<MappingRunner> MakeRunner(int threads, bool external_mapping, Mapper* mapper);
 
 }  // namespace msc_vo

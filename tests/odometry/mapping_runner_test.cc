@@ -25,15 +25,7 @@ class MappingRunnerTest : public testing::TestWithParam<RunnerKind> {
   static bool IsThreaded() { return GetParam() == RunnerKind::kThreaded; }
 
   std::unique_ptr<MappingRunner> MakeRunner() {
-    switch (GetParam()) {
-      case RunnerKind::kInline:
-        return MakeInlineRunner(&mapper_);
-      case RunnerKind::kThreaded:
-        return MakeThreadedRunner(&mapper_);
-      case RunnerKind::kCalled:
-        break;
-    }
-    return MakeCalledRunner(&mapper_);
+    return msc_vo::MakeRunner(IsThreaded() ? 2 : 1, GetParam() == RunnerKind::kCalled, &mapper_);
   }
   // Matched with the points of keyframe 0, which become landmarks in their order, so that there is
   // a window from keyframe 1 on.
