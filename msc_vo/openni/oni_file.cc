@@ -137,8 +137,6 @@ std::vector<ListedImage> ListFrames(const std::string& name, OniReader* reader) 
 
 }  // namespace
 
-bool HasOpenNi() { return true; }
-
 SequenceIndex OpenOniFile(const std::string& path) {
   const std::string problem = FileProblem(path, UINTMAX_MAX);
   if (!problem.empty()) throw std::runtime_error(path + ": " + problem);

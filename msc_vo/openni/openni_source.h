@@ -9,9 +9,6 @@
 
 namespace msc_vo {
 
-/// Whether msc_vo was built with the library OpenNI2.
-bool HasOpenNi();
-
 /// Opens a recording of OpenNI2 (.oni). The time stamps of all frames are read, which decodes the
 /// file once; frames are read on demand. Mirrored recordings are mirrored back. The calibration is
 /// nominal, from the field of view that the recording names. Colour and depth are paired as

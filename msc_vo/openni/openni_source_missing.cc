@@ -20,8 +20,6 @@ namespace {
 
 }  // namespace
 
-bool HasOpenNi() { return false; }
-
 SequenceIndex OpenOniFile(const std::string& path) { Fail(path); }
 
 SequenceIndex OpenOpenNiCamera(const std::string& uri) { Fail("openni2:" + uri); }
