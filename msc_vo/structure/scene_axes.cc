@@ -55,11 +55,8 @@ std::optional<int> AxisOfLine(const AxesEstimate& axes, const LineLandmark& line
 }
 
 std::optional<int> AxisOfPlane(const AxesEstimate& axes, const Plane& plane) {
-  const Eigen::Vector3d normal = axes.world_from_axes.conjugate() * plane.normal();
-  int axis = 0;
-  normal.cwiseAbs().maxCoeff(&axis);
-  const double angle = UndirectedAngle(normal, Eigen::Vector3d(Eigen::Vector3d::Unit(axis)));
-  return angle <= kMaxAxisAngle ? std::optional<int>(axis) : std::nullopt;
+  // With this sigma, the largest angle alone decides.
+  return AssociateAxis(axes.world_from_axes, 0.0, {plane.normal(), kMaxAxisAngle});
 }
 
 void SceneAxes::Restore(const AxesEstimate& axes) {
