@@ -14,11 +14,6 @@ namespace msc_vo {
 
 namespace {
 
-Json CameraToJson(const PinholeCamera& camera) {
-  return {{"fx", camera.fx}, {"fy", camera.fy},       {"cx", camera.cx},
-          {"cy", camera.cy}, {"width", camera.width}, {"height", camera.height}};
-}
-
 PinholeCamera CameraFromJson(const Json& json) {
   PinholeCamera camera;
   camera.fx = json.at("fx");

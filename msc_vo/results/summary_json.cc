@@ -10,6 +10,7 @@
 #include "msc_vo/datasets/image_container.h"
 #include "msc_vo/datasets/image_masks.h"
 #include "msc_vo/results/calibration_json.h"
+#include "msc_vo/results/internal/json_value.h"
 #include "msc_vo/results/internal/run_json.h"
 #include "msc_vo/version.h"
 
@@ -18,31 +19,20 @@ namespace msc_vo {
 namespace {
 
 Json DepthCameraToJson(const DepthCamera& depth_camera) {
-  const PinholeCamera& camera = depth_camera.camera;
   const Eigen::Vector3d t = depth_camera.depth_from_color.translation();
   const Eigen::Quaterniond q(depth_camera.depth_from_color.rotation());
-  return {{"fx", camera.fx},
-          {"fy", camera.fy},
-          {"cx", camera.cx},
-          {"cy", camera.cy},
-          {"width", camera.width},
-          {"height", camera.height},
-          {"translation", {t.x(), t.y(), t.z()}},
-          {"rotation", {q.x(), q.y(), q.z(), q.w()}},
-          {"inverse_depth_offset", depth_camera.inverse_depth_offset}};
+  Json json = CameraToJson(depth_camera.camera);
+  json["translation"] = {t.x(), t.y(), t.z()};
+  json["rotation"] = {q.x(), q.y(), q.z(), q.w()};
+  json["inverse_depth_offset"] = depth_camera.inverse_depth_offset;
+  return json;
 }
 
 Json CameraToJson(const Calibration& calibration) {
-  const PinholeCamera& camera = calibration.camera;
-  Json json = {{"origin", calibration.origin},
-               {"fx", camera.fx},
-               {"fy", camera.fy},
-               {"cx", camera.cx},
-               {"cy", camera.cy},
-               {"width", camera.width},
-               {"height", camera.height},
-               {"depth_scale", calibration.depth_scale},
-               {"distortion", calibration.distortion.Coefficients()}};
+  Json json = {{"origin", calibration.origin}};
+  json.update(CameraToJson(calibration.camera));
+  json["depth_scale"] = calibration.depth_scale;
+  json["distortion"] = calibration.distortion.Coefficients();
   const LensDistortion& lens = calibration.distortion;
   if (lens.model != LensModel::kRadialTangential || lens.recorded) {
     const PinholeCamera& recorded = calibration.Recorded();

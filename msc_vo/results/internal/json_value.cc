@@ -9,6 +9,11 @@ namespace msc_vo {
 
 Json ValueOrNull(double count, double value) { return count > 0.0 ? Json(value) : Json(); }
 
+Json CameraToJson(const PinholeCamera& camera) {
+  return {{"fx", camera.fx}, {"fy", camera.fy},       {"cx", camera.cx},
+          {"cy", camera.cy}, {"width", camera.width}, {"height", camera.height}};
+}
+
 Json ToJson(const TrajectoryError& error) {
   const RelativeError& second = error.rpe_per_second;
   const RelativeError& metre = error.rpe_per_metre;

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "msc_vo/camera/pinhole_camera.h"
 #include "msc_vo/evaluation/trajectory_error.h"
 #include "msc_vo/report/report_statistics.h"
 
@@ -17,6 +18,9 @@ using Json = nlohmann::ordered_json;
 
 /// The value, or null if `count` is not positive, that is, without samples.
 Json ValueOrNull(double count, double value);
+
+/// Intrinsics and size.
+Json CameraToJson(const PinholeCamera& camera);
 
 /// Errors of a trajectory in metres and degrees.
 Json ToJson(const TrajectoryError& error);
