@@ -19,6 +19,7 @@
 #include "apps/cli/configuration_arguments.h"
 #include "apps/cli/sequence_arguments.h"
 #include "apps/cli/sequence_run.h"
+#include "msc_vo/geometry/erase_if.h"
 #include "msc_vo/results/benchmark.h"
 #include "msc_vo/results/benchmark_json.h"
 #include "msc_vo/results/benchmark_merge.h"
@@ -207,7 +208,7 @@ int Merge(const BenchmarkArguments& arguments) {
     return fs::path(file).filename() == "benchmark.json" && files.size() > 1 &&
            fs::equivalent(fs::path(file).parent_path(), arguments.output, error);
   };
-  files.erase(std::remove_if(files.begin(), files.end(), is_output), files.end());
+  EraseIf(&files, is_output);
 
   Benchmark benchmark = ReadBenchmarkJson(files.front());
   for (size_t i = 1; i < files.size(); ++i) {

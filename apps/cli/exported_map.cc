@@ -51,8 +51,7 @@ void KeepSession(const RunExport& arguments, const RgbdDecoder& images, MapConte
   const KeyframeRange session =
       FindSession({arguments.map, arguments.sequence.directory, arguments.session, false,
                    "give the sequence of one of them, name its session with --session, or leave "
-                   "out --sequence: "
-                   "the images of all sessions are then named by numbers"},
+                   "out --sequence: the images of all sessions are then named by numbers"},
                   *contents, images);
   std::vector<SavedSubMap> kept;
   for (SavedSubMap& submap : contents->submaps) {
@@ -83,9 +82,8 @@ void CheckImageSize(const Keyframe& keyframe, const RgbdDecoder& decoder) {
   const ExportedCamera camera = ExportCamera({calibration.camera, calibration.distortion});
   if (recorded.width == camera.width && recorded.height == camera.height) return;
   throw std::runtime_error(
-      FormatText("%s: its images have %d x %d pixels, and that of the keyframe at %.6f s has %d x "
-                 "%d; give the "
-                 "sequence of the map, or none: images are then named by numbers",
+      FormatText("%s: its images have %d x %d pixels, and that of the keyframe at %.6f s has "
+                 "%d x %d; give the sequence of the map, or none: images are then named by numbers",
                  decoder.index().directory.c_str(), camera.width, camera.height, frame.timestamp,
                  recorded.width, recorded.height));
 }

@@ -135,8 +135,15 @@ void SaveCompleteMap(const std::string& file, MapContents contents,
 
 void Merge(const std::vector<std::string>& files, const std::string& output) {
   const auto refuse_to_replace = [&output] {
-    if (!HasEntry(output)) return;
-    throw std::runtime_error(output + ": exists; give the merged map another name");
+    if (HasEntry(output)) {
+      throw std::runtime_error(output + ": exists; give the merged map another name");
+    }
+    // SQLite would change the merged map by it.
+    const std::string journal = output + "-journal";
+    if (!HasEntry(journal)) return;
+    throw std::runtime_error(journal +
+                             ": is left from another map of this name; remove it, or give "
+                             "the merged map another name");
   };
   refuse_to_replace();
   CheckWritable(output);

@@ -16,6 +16,7 @@
 
 #include "apps/cli/posed_images.h"
 #include "apps/cli/sequence_arguments.h"
+#include "msc_vo/geometry/quantile.h"
 #include "msc_vo/image_files/jpeg_image.h"
 #include "msc_vo/logging/logger.h"
 #include "msc_vo/map_file/map_images.h"
@@ -139,11 +140,10 @@ ImageAgreement CompareImages(const MapImages& known, const Candidate& candidate,
     if (correlation) correlations.push_back(*correlation);
   }
   if (correlations.empty()) return ImageAgreement::kUnknown;
-  const auto median = correlations.begin() + static_cast<long>(correlations.size() / 2);
-  std::nth_element(correlations.begin(), median, correlations.end());
-  Log().debug("session '{}': images correlate by {:.3f} with those of {}", candidate.name, *median,
+  const double median = UpperMedian(std::move(correlations));
+  Log().debug("session '{}': images correlate by {:.3f} with those of {}", candidate.name, median,
               images.index().directory);
-  return *median < kMinCorrelation ? ImageAgreement::kDifferent : ImageAgreement::kSame;
+  return median < kMinCorrelation ? ImageAgreement::kDifferent : ImageAgreement::kSame;
 }
 
 // Leaves the candidates that agree best, if they agree at all. Returns how they agree.
@@ -195,8 +195,10 @@ KeyframeRange FindSession(const SessionQuery& query, const MapContents& contents
          " are not those of " + images.index().directory);
   }
   if (found.size() > 1 && agreement == ImageAgreement::kUnknown) {
-    fail("has several sessions with these time stamps, and no images that tell which of them is " +
-         wanted + ": " + NamesOf(found));
+    fail(
+        "has several sessions with these time stamps, and no images to distinguish them; none is "
+        "certain to be " +
+        wanted + ": " + NamesOf(found));
   }
   return found.back().range;
 }

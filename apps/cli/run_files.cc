@@ -11,6 +11,7 @@
 #include <sys/stat.h>
 
 #include "apps/cli/command_log.h"
+#include "msc_vo/geometry/erase_if.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/write_error.h"
 
@@ -63,8 +64,7 @@ bool RunFiles::MakeRoomFor(std::uintmax_t num_bytes) {
   const auto is_elsewhere = [this](const Expendable& expendable) {
     return !AreOnOneDisk(expendable.path, directory_);
   };
-  expendable_.erase(std::remove_if(expendable_.begin(), expendable_.end(), is_elsewhere),
-                    expendable_.end());
+  EraseIf(&expendable_, is_elsewhere);
   std::uintmax_t num_removed = 0;
   for (const Expendable& expendable : expendable_) num_removed += NumBytes(expendable.path);
   if (!WouldFit(directory_, num_removed, num_bytes)) return false;

@@ -129,7 +129,7 @@ std::vector<std::string> CheckInput(const RgbdDecoder& decoder, const std::strin
   for (const Finding& finding : CheckSequenceQuickly(decoder)) {
     if (finding.severity == Severity::kError) {
       throw std::runtime_error(decoder.index().directory + ": " + Describe(finding) +
-                               " (msc_vo check tells more" + advice + ")");
+                               " (for details, run msc_vo check" + advice + ")");
     }
     warnings.push_back(Describe(finding));
   }

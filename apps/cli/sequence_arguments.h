@@ -40,7 +40,8 @@ enum class LiveCameras { kAllowed, kRefused };
 RgbdDecoder OpenDecoder(const SequenceArguments& arguments, const Configuration& configuration,
                         LiveCameras live_cameras = LiveCameras::kRefused);
 
-/// Throws std::runtime_error if a folder is that of a sequence, or of its images.
+/// Throws std::runtime_error if a folder is that of a sequence which can be read, or one in it with
+/// its images.
 void RefuseSequenceFolder(const std::string& folder);
 
 /// Checks a sequence before its images are used, see CheckSequenceQuickly(). Returns the warnings.

@@ -60,10 +60,15 @@ UnfinishedFolder::UnfinishedFolder(const std::string& path) : path_(path) {
                 : path + ": exists; remove it if no other process writes into it");
   }
   if (is_new) return;
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(path)) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(path, error)) {
+    std::error_code ignored;
     if (entry.path().filename() != kMark) fs::remove_all(entry.path(), ignored);
   }
+  // Another process may have removed the folder between the calls.
+  if (!error && HasEntry(mark)) return;
+  close(lock_);
+  throw std::runtime_error(path + ": was removed by another process; try again");
 }
 
 UnfinishedFolder::~UnfinishedFolder() {

@@ -47,7 +47,7 @@ void CheckByteOrder(const cv::Mat& depth, const py::object& depth_scale) {
 }
 
 // Removes the last session, that of the run, if no keyframe of it is in the maps. Throws
-// std::invalid_argument if they have no keyframes at all, which would replace an earlier map.
+// std::invalid_argument if they have no keyframes at all: an empty map must not replace another.
 void LeaveOutEmptySession(const std::string& path, MapContents* contents) {
   KeyframeId newest = kNoId;
   for (const SavedSubMap& submap : contents->submaps) {
@@ -55,8 +55,8 @@ void LeaveOutEmptySession(const std::string& path, MapContents* contents) {
     if (!keyframes.empty()) newest = std::max(newest, keyframes.back().first);
   }
   if (newest == kNoId) {
-    throw std::invalid_argument(path + ": not written, since the map has no keyframes yet; call " +
-                                "process() before save_map()");
+    throw std::invalid_argument(path + ": not written, since the map has no keyframes yet; save " +
+                                "it after the first image with a pose");
   }
   if (newest < contents->sessions.back().first_keyframe) contents->sessions.pop_back();
 }

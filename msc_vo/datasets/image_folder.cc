@@ -9,6 +9,7 @@
 #include <set>
 
 #include "msc_vo/datasets/image_name.h"
+#include "msc_vo/geometry/erase_if.h"
 #include "msc_vo/text/ending.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
@@ -42,7 +43,7 @@ void RemoveJpegCopies(std::vector<std::string>* paths) {
   const auto is_copy = [&](const std::string& path) {
     return IsNamedJpeg(path) && stems.count(stem_of(path)) > 0;
   };
-  paths->erase(std::remove_if(paths->begin(), paths->end(), is_copy), paths->end());
+  EraseIf(paths, is_copy);
 }
 
 bool StartsWith(const std::string& text, const std::string& prefix) {

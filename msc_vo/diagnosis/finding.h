@@ -40,7 +40,7 @@ Finding Warning(const std::string& check, const std::string& text, const std::st
 Finding Error(const std::string& check, const std::string& text, const std::string& fix,
               const std::optional<Measurement>& measurement = std::nullopt);
 
-/// The same by severity; `fix` is left out if that is kGood.
+/// Makes a finding of a given severity; drops `fix` for kGood.
 Finding MakeFinding(Severity severity, const std::string& check, const std::string& text,
                     const std::string& fix, const std::optional<Measurement>& measurement);
 

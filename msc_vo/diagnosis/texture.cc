@@ -76,8 +76,9 @@ void AddTextureFindings(const std::vector<ImageTexture>& images, Findings* findi
   if (shows_nothing) {
     findings->push_back(Error(
         "images.texture",
-        FormatText("none of %zu decoded images shows a point or a line, so that no map begins",
-                   images.size()),
+        FormatText(
+            "none of %zu decoded images shows a point or a line: none of them can begin a map",
+            images.size()),
         "check lens cap, light and exposure; keep away from blank walls at the beginning",
         measurement));
     return;

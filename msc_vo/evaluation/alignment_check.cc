@@ -71,7 +71,7 @@ double PositionVariance(const Poses& reference, const Poses& estimate) {
 
 std::string Millimetres(double square_metres) {
   const double value = 1e3 * std::sqrt(std::max(square_metres, 0.0));
-  return FormatText(value > 1e3 && value < 1e9 ? "%.0f mm" : "%.3g mm", value);
+  return FormatText(value >= 999.5 && value < 1e9 ? "%.0f mm" : "%.3g mm", value);
 }
 
 // Ends of parts of the reference path that have the same length.

@@ -15,6 +15,7 @@
 #include "msc_vo/features/internal/depth_range_builder.h"
 #include "msc_vo/features/internal/depth_source.h"
 #include "msc_vo/features/internal/feature_depth.h"
+#include "msc_vo/geometry/erase_if.h"
 #include "msc_vo/sensor/image_mask.h"
 #include "msc_vo/sensor/lens_remap.h"
 #include "msc_vo/timing/stopwatch.h"
@@ -136,7 +137,7 @@ struct FrameBuilder::State {
     const auto is_outside = [this](const PointFeature& point) {
       return !camera.IsInside(point.pixel);
     };
-    points->erase(std::remove_if(points->begin(), points->end(), is_outside), points->end());
+    EraseIf(points, is_outside);
     for (PointFeature& point : *points) point.sigma *= std::sqrt(lens.Magnification(point.pixel));
   }
 };

@@ -14,6 +14,7 @@
 #include "msc_vo/features/internal/corner_refinement.h"
 #include "msc_vo/features/internal/fast_corners.h"
 #include "msc_vo/features/internal/point_descriptor_extractor.h"
+#include "msc_vo/geometry/erase_if.h"
 #include "msc_vo/sensor/standalone_image.h"
 
 namespace msc_vo {
@@ -107,7 +108,7 @@ std::vector<FastCorner> DetectCorners(const cv::Mat& level, int num_wanted,
   std::vector<FastCorner> corners = DetectFastCorners(level, area, options.min_fast_threshold);
   if (is_usable) {
     const auto is_left_out = [&](const FastCorner& corner) { return !is_usable(corner.pixel); };
-    corners.erase(std::remove_if(corners.begin(), corners.end(), is_left_out), corners.end());
+    EraseIf(&corners, is_left_out);
   }
   CellGrid grid(area, num_wanted, corners);
   grid.RemoveWeakBesideStrong(options.fast_threshold);

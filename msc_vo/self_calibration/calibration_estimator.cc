@@ -22,7 +22,7 @@ namespace {
 // whose large errors need several steps.
 constexpr size_t kMaxRelinearized = 2;
 constexpr size_t kMaxRelinearizedUnregistered = 4;
-// Iterations over all pairs before a correction is accepted.
+// Linearisations of all pairs before a correction is accepted.
 constexpr int kLinearizations = 3;
 // A correction in use is replaced when its standard deviation has shrunk to this ratio, and the
 // estimate differs by more than this number of standard deviations.

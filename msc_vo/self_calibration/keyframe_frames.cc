@@ -14,10 +14,6 @@ namespace msc_vo {
 
 namespace {
 
-// Smallest change of the readout time (seconds) that is applied: at 70 degrees per second a
-// millisecond shifts the first and the last row by 0.3 px, less than the sigma of a point.
-constexpr double kMinCompensatedChange = 0.001;
-
 // Moves the landmarks of a kind to the positions that the first of their observations with a depth
 // measures, and clears Landmark::has_false_depth, which was found with the calibration so far.
 template <typename L>
@@ -109,7 +105,7 @@ void SetKeyframeVelocity(KeyframeId keyframe, const CameraVelocity& velocity, Ma
 
 std::shared_ptr<const Frame> UpdateCompensation(std::shared_ptr<const Frame> frame,
                                                 double readout_time) {
-  if (!frame->velocity || std::abs(frame->readout_time - readout_time) < kMinCompensatedChange) {
+  if (!frame->velocity || std::abs(frame->readout_time - readout_time) < kMinReadoutChange) {
     return frame;
   }
   return std::make_shared<Frame>(CompensateRollingShutter(*frame, *frame->velocity, readout_time));

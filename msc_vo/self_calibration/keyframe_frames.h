@@ -11,6 +11,11 @@
 
 namespace msc_vo {
 
+/// Smallest change of the readout time, seconds, for which frames are compensated again: at 70
+/// degrees per second, a millisecond shifts the first and the last row by 0.3 px, less than the
+/// sigma of a point.
+constexpr double kMinReadoutChange = 0.001;
+
 /// Gives a keyframe other intrinsics.
 using KeyframeUpdate =
     std::function<std::shared_ptr<const Frame>(KeyframeId, const std::shared_ptr<const Frame>&)>;

@@ -11,6 +11,7 @@
 #include "msc_vo/camera/image_scale.h"
 #include "msc_vo/factors/camera_factor.h"
 #include "msc_vo/matching/point_matcher.h"
+#include "msc_vo/self_calibration/keyframe_frames.h"
 #include "msc_vo/self_calibration/pair_view.h"
 #include "msc_vo/self_calibration/surface_plane.h"
 
@@ -32,9 +33,7 @@ constexpr size_t kMaxPoints = 60;  // with surfaces
 constexpr double kMaxDisplacement = 0.15;
 // Smallest mean displacement of the points of a pair, radians.
 constexpr double kMinDisplacement = 0.04;
-// Seconds; as for the compensation of keyframes.
-constexpr double kMinReadoutChange = 0.001;
-constexpr double kLargeReadoutChange = 0.005;
+constexpr double kLargeReadoutChange = 0.005;  // seconds
 // Distance of the linearisation point that calls for a new one, standard deviations.
 constexpr double kMaxDistance = 0.5;
 // Pairs whose images are kept: a bound of the memory.

@@ -20,8 +20,8 @@ constexpr double kAccelerationSigma = 3.0, kTurnAccelerationSigma = 6.0;
 // false corners.
 constexpr int kManyFeatures = 5;
 
-// Holds the camera in place, radians and metres: a tenth of what images tell, so that map planes
-// which are not quite parallel do not move it.
+// Holds the camera in place, radians and metres: a tenth of the sigmas of poses from points and
+// lines, so that map planes which are not quite parallel do not move it.
 constexpr double kHeldSigma = 1e-4;
 
 PoseCovariance CovarianceOfConstantVelocity(double seconds) {

@@ -12,12 +12,12 @@
 
 namespace msc_vo {
 
-/// What is known of a pose beside planes. The covariances are of the camera, in its frame.
+/// Prior of a pose, used with planes. The covariances are of the camera, in its frame.
 struct PosePriorBesidePlanes {
   Rigid3 cam_from_world;
   PoseCovariance covariance = PoseCovariance::Zero();
-  /// Of an independent error that planes may correct. Where they leave the camera free, the pose
-  /// stays, and its covariance contains it.
+  /// Covariance of an independent error that planes may correct. Where they leave the camera free,
+  /// the pose stays, and its covariance contains this error.
   PoseCovariance correctable = PoseCovariance::Zero();
 };
 
@@ -25,8 +25,8 @@ struct PosePriorBesidePlanes {
 struct ExpectedPose {
   Rigid3 cam_from_world;
   PoseCovariance covariance = PoseCovariance::Zero();  ///< tangent of Rigid3Manifold
-  /// Of the camera, in its frame, in the directions that planes leave free; none if custom factors
-  /// hold it.
+  /// Covariance of the camera, in its frame, for the directions that planes leave free; none if
+  /// custom factors hold it.
   std::optional<PoseCovariance> free;
 };
 
@@ -52,7 +52,7 @@ std::optional<PlanePose> EstimateByPlanes(const TrackerOptions& options, const F
                                           const MapSnapshot& snapshot, const ExpectedPose& expected,
                                           const std::vector<PoseFactor>& factors);
 
-/// The pose by the planes of a frame that are matched, and by what is known beside.
+/// Estimates the pose of a frame by its matched planes and a prior.
 PoseSummary EstimateBesidePlanes(const TrackerOptions& options, const Frame& frame,
                                  const std::vector<PlaneMatch>& planes, const MapSnapshot& snapshot,
                                  const PosePriorBesidePlanes& prior, Rigid3* cam_from_world);

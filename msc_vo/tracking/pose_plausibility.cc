@@ -3,6 +3,8 @@
 
 #include "msc_vo/tracking/pose_plausibility.h"
 
+#include <utility>
+
 #include "msc_vo/geometry/so3.h"
 
 namespace msc_vo {
@@ -31,17 +33,17 @@ void PosePlausibility::Observe(double timestamp, const CameraVelocity& velocity,
 
 void PosePlausibility::MarkImplausible(double timestamp) {
   implausible_until_ = timestamp + kImplausibleSeconds;
+  is_marked_ = true;
 }
 
 const PoseCovariance& PosePlausibility::UpdateDoubt(double timestamp, const Rigid3& cam_from_last,
                                                     const Rigid3& cam_from_predicted) {
-  if (!IsImplausible(timestamp)) {
-    doubt_.setZero();
-  } else if (doubt_.isZero()) {
-    doubt_ = IsotropicCovariance(LogSO3(cam_from_predicted.rotation()).norm(),
-                                 cam_from_predicted.translation().norm());
-  } else {
-    doubt_ = TransportCovariance(cam_from_last, doubt_);
+  doubt_ = TransportCovariance(cam_from_last, doubt_);
+  if (!IsImplausible(timestamp)) doubt_.setZero();
+  if (std::exchange(is_marked_, false)) {
+    const PoseCovariance of_jump = IsotropicCovariance(LogSO3(cam_from_predicted.rotation()).norm(),
+                                                       cam_from_predicted.translation().norm());
+    if (of_jump.trace() > doubt_.trace()) doubt_ = of_jump;
   }
   return doubt_;
 }

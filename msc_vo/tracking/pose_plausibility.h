@@ -37,21 +37,23 @@ class PosePlausibility {
   /// seconds.
   bool IsImplausible(double timestamp) const { return timestamp < implausible_until_; }
 
-  /// Covariance of the camera, in its frame, that an implausible pose has beside its own: the
-  /// camera may be where the first one of these poses was predicted. Call it once for each pose.
+  /// Covariance of the camera, in its frame, to be added to that of an implausible pose: the camera
+  /// may be where it was predicted, at the largest jump of these seconds. Call it once for each
+  /// pose, after the others.
   const PoseCovariance& UpdateDoubt(double timestamp, const Rigid3& cam_from_last,
                                     const Rigid3& cam_from_predicted);
 
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [limits, implausible_until, doubt] = *this;  // all members, or it does not compile
-    archive(limits, implausible_until, doubt);
+    auto& [limits, implausible_until, marked, doubt] = *this;  // all members
+    archive(limits, implausible_until, marked, doubt);
   }
 
  private:
   MotionLimits limits_;
   double implausible_until_ = std::numeric_limits<double>::lowest();  // seconds
+  bool is_marked_ = false;  // since the last UpdateDoubt()
   PoseCovariance doubt_ = PoseCovariance::Zero();
 };
 

@@ -95,6 +95,7 @@ TrackedFrame Tracker::TrackInMap(const Input& input, const InitialPose& initial,
   relocalization_.Reset();
   segment_start_.Tracked(tracked.frame->timestamp);
   Follow(&tracked);
+  AddDoubt(input, &tracked);
   return tracked;
 }
 
@@ -129,16 +130,18 @@ std::optional<TrackedFrame> Tracker::TrackByPlanes(const Input& input) {
   SetPose(input.snapshot.map, pose->cam_from_world,
           ReferenceOrNewest(input.snapshot.map, last_.reference), &tracked);
   tracked.cam_from_last = tracked.cam_from_world * input.last_from_world.Inverse();
-  // A direction that the planes leave free has the sigma of the prior, which begins small.
+  // In directions that the planes leave free, the sigma (ExpectedPose::free) begins small.
   tracked.status =
       pose->is_determined ? ClassifyStatus(options_, tracked.pose) : TrackingStatus::kWeak;
-  const bool is_certain = tracked.status == TrackingStatus::kTracked;
+  const bool is_certain =
+      tracked.status == TrackingStatus::kTracked && !plausibility_.IsImplausible(timestamp);
   if (is_certain && policy_.IsDue(*input.frame, tracked.matches, is_certain)) {
     tracked.keyframe.id = MakeKeyframe(timestamp);
   }
   if (pose->is_determined) relocalization_.Reset();
   segment_start_.Tracked(timestamp);
   Follow(&tracked);
+  AddDoubt(input, &tracked);
   return tracked;
 }
 
@@ -284,12 +287,9 @@ TrackedFrame Tracker::TrackLocalMap(const Input& input, const FramePose& initial
   const std::optional<FramePose> refined =
       estimator->MatchAndEstimate(options_.pose, *tracked.frame, local, options_.local_map_radius,
                                   initial.cam_from_world, LandmarkInliers(initial.matches));
-  if (refined) {
-    pose = *refined;
-  } else if (!tracked.planes.empty()) {
-    CorrectByPlanes(input.snapshot, prior, tracked, &pose);
-  }
-  const bool is_known = refined || DetermineAPose(*tracked.frame, tracked.planes);
+  if (refined) pose = *refined;
+  const bool is_known = refined || (CorrectByPlanes(input.snapshot, prior, tracked, &pose) &&
+                                    DetermineAPose(*tracked.frame, tracked.planes));
   tracked.status = is_known ? ClassifyStatus(options_, pose.summary) : TrackingStatus::kWeak;
   tracked.pose = WithDynamicObjects(pose.summary, initial.summary);
   tracked.matches = LandmarkInliers(pose.matches);
@@ -299,11 +299,11 @@ TrackedFrame Tracker::TrackLocalMap(const Input& input, const FramePose& initial
   return tracked;
 }
 
-PosePriorBesidePlanes Tracker::PriorOf(const Input& input, const FramePose& pose) const {
-  const Rigid3& cam_from_world = pose.cam_from_world;
+PosePriorBesidePlanes Tracker::PriorOf(const Input& input, const FramePose& initial) const {
+  const Rigid3& cam_from_world = initial.cam_from_world;
   PosePriorBesidePlanes prior{cam_from_world,
-                              CameraCovariance(cam_from_world, pose.summary.covariance)};
-  const PerKind<int> num_landmarks = SizesOf(LandmarkInliers(pose.matches));
+                              CameraCovariance(cam_from_world, initial.summary.covariance)};
+  const PerKind<int> num_landmarks = SizesOf(LandmarkInliers(initial.matches));
   const bool is_in_map = input.prediction.by_factors.usable ||
                          NumMatches(options_, *input.frame, num_landmarks) >= options_.min_matches;
   if (is_in_map) return prior;
@@ -312,14 +312,16 @@ PosePriorBesidePlanes Tracker::PriorOf(const Input& input, const FramePose& pose
   return prior;
 }
 
-void Tracker::CorrectByPlanes(const MapSnapshot& snapshot, const PosePriorBesidePlanes& prior,
+bool Tracker::CorrectByPlanes(const MapSnapshot& snapshot, const PosePriorBesidePlanes& prior,
                               const TrackedFrame& tracked, FramePose* pose) const {
+  if (tracked.planes.empty()) return false;
   Rigid3 cam_from_world;
   const PoseSummary corrected = EstimateBesidePlanes(options_, *tracked.frame, tracked.planes,
                                                      snapshot, prior, &cam_from_world);
-  if (!corrected.usable) return;
+  if (!corrected.usable) return false;
   pose->cam_from_world = cam_from_world;
   pose->summary.covariance = corrected.covariance;
+  return true;
 }
 
 void Tracker::ConfirmStatus(const Input& input, PoseOrigin origin, TrackedFrame* tracked) {
@@ -335,9 +337,12 @@ void Tracker::ConfirmStatus(const Input& input, PoseOrigin origin, TrackedFrame*
   }
   tracked->is_implausible = plausibility_.IsImplausible(timestamp);
   if (tracked->is_implausible) tracked->status = TrackingStatus::kWeak;
+}
+
+void Tracker::AddDoubt(const Input& input, TrackedFrame* tracked) {
   const Rigid3& cam_from_world = tracked->cam_from_world;
   const PoseCovariance& doubt =
-      plausibility_.UpdateDoubt(timestamp, *tracked->cam_from_last,
+      plausibility_.UpdateDoubt(tracked->frame->timestamp, *tracked->cam_from_last,
                                 cam_from_world * input.prediction.cam_from_world.Inverse());
   tracked->pose.covariance += CovarianceOfCamera(cam_from_world, doubt);
 }

@@ -113,12 +113,14 @@ class Tracker {
   // An initial pose with too few landmarks rests on other features of the last frame, whose own
   // error it inherits.
   PosePriorBesidePlanes PriorOf(const Input& input, const FramePose& initial) const;
-  // Corrects such a pose by the planes of the frame.
-  void CorrectByPlanes(const MapSnapshot& snapshot, const PosePriorBesidePlanes& prior,
+  // Corrects an initial pose by the matched planes of the frame. Returns false if they do not.
+  bool CorrectByPlanes(const MapSnapshot& snapshot, const PosePriorBesidePlanes& prior,
                        const TrackedFrame& tracked, FramePose* pose) const;
   // Makes a tracked frame kWeak and implausible if its pose, or one of the last five seconds,
   // follows a gap, and is weak, takes an implausible motion, or contradicts the depth images.
   void ConfirmStatus(const Input& input, PoseOrigin origin, TrackedFrame* tracked);
+  // Adds the doubt about an implausible pose to its covariance; the next frame does not inherit it.
+  void AddDoubt(const Input& input, TrackedFrame* tracked);
   // Decides whether the frame becomes a keyframe.
   KeyframeProposal ProposeKeyframe(const Input& input, const TrackedFrame& tracked,
                                    PoseEstimator* estimator);

@@ -88,7 +88,7 @@ TEST_F(RecordedSessionTest, IsRecognisedByTheImagesOfTheRun) {
 TEST_F(RecordedSessionTest, IsAskedForWithoutImages) {
   Replay("a", {"--map", Path("blind.map"), "--no-map-images"});
   Replay("b", {"--map", Path("blind.map"), "--no-map-images", "--export",
-               "colmap=" + Path("of_run")});  // which knows its session
+               "colmap=" + Path("of_run")});  // whose results name its session
   const std::string a = NameOfSession("blind.map", 0), b = NameOfSession("blind.map", 1);
   EXPECT_THAT(RefusedColmap("blind.map", "a/seq"), LineNames("error:", a, b, "--session"));
   EXPECT_TRUE(ReadFile(Path("of_run/images.txt")) == Colmap("blind.map", "b/seq", b));

@@ -232,7 +232,6 @@ TEST_F(SynthesizeCommandTest, DisplacesDepthOfIclNuim) {
   EXPECT_LT(median_difference(of_plain, of_moved), median_difference(of_plain, of_plain));
 }
 
-// The same options render the same sequence again, and take nothing away.
 TEST_F(SynthesizeCommandTest, SaysHowManyImagesAnInterruptedRunHasWritten) {
   CommandProcess synthesize({"synthesize", Path("long"), "--frames", "5000", "--width", "160"});
   const std::string truth = Path("long/groundtruth.txt");
@@ -245,6 +244,7 @@ TEST_F(SynthesizeCommandTest, SaysHowManyImagesAnInterruptedRunHasWritten) {
   EXPECT_THAT(synthesize.output(), LineNames("interrupted", Path("long"), "5000"));
 }
 
+// The same options render the same sequence again, and take nothing away.
 TEST_F(SynthesizeCommandTest, ReplacesTheSequenceOfTheSameOptions) {
   Truth("room", {"--seed", "3"});
   const std::string color = Color("room");

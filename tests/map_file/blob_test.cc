@@ -12,6 +12,7 @@
 
 #include "msc_vo/bundle_adjustment/validation.h"
 #include "msc_vo/map_file/internal/feature_blob.h"
+
 namespace msc_vo {
 namespace {
 

@@ -57,7 +57,7 @@ TEST_F(CorridorTest, HoldsTheCameraWherePlanesLeaveItFree) {
   EXPECT_LT(std::sqrt(covariance(4, 4)), 0.1);
 }
 
-// Features of the last frame say how far the camera has moved, and not where that was.
+// Features of the last frame measure the motion of the camera, not its position.
 TEST_F(CorridorTest, CorrectsTheErrorOfTheLastPoseAcrossTheCorridor) {
   std::vector<PlaneMatch> matches;
   for (int i = 0; i < 3; ++i) matches.push_back({i, i});

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
+#include "msc_vo/datasets/image_list.h"
+
 #include <algorithm>
 #include <string>
 
 #include <gmock/gmock.h>
-
-#include "msc_vo/datasets/image_list.h"
 
 namespace msc_vo {
 namespace {
