@@ -84,6 +84,12 @@ TrackedFrame Tracker::TrackFrame(const std::shared_ptr<const Frame>& raw,
 
 TrackedFrame Tracker::TrackInMap(const Input& input, const InitialPose& initial,
                                  PoseEstimator* estimator) {
+  if (!IsInMap(input, initial.pose)) {
+    // Blank walls have false corners, which show a motion of their own.
+    if (std::optional<TrackedFrame> tracked = TrackByPlanes(input, PlanesSpan::kSpace)) {
+      return *tracked;
+    }
+  }
   TrackedFrame tracked = TrackLocalMap(input, initial.pose, estimator);
   tracked.relocalized = initial.origin == PoseOrigin::kAfterGap;
   ConfirmStatus(input, initial.origin, &tracked);
@@ -100,7 +106,7 @@ TrackedFrame Tracker::TrackInMap(const Input& input, const InitialPose& initial,
 }
 
 TrackedFrame Tracker::TrackInGap(const Input& input) {
-  if (std::optional<TrackedFrame> tracked = TrackByPlanes(input)) return *tracked;
+  if (std::optional<TrackedFrame> tracked = TrackByPlanes(input, PlanesSpan::kAny)) return *tracked;
   const Map& map = input.snapshot.map;
   in_gap_ = true;
   TrackedFrame tracked = BridgeWithPrediction(input);
@@ -113,14 +119,14 @@ TrackedFrame Tracker::TrackInGap(const Input& input) {
 }
 
 // After a gap, a prediction does not tell parallel planes apart.
-std::optional<TrackedFrame> Tracker::TrackByPlanes(const Input& input) {
+std::optional<TrackedFrame> Tracker::TrackByPlanes(const Input& input, PlanesSpan span) {
   const double timestamp = input.frame->timestamp;
   if (in_gap_ || timestamp - last_.frame->timestamp > options_.max_prediction) return std::nullopt;
   const auto estimate = [&, expected = ExpectPoseOf(input)](const Frame& frame) {
     return EstimateByPlanes(options_, frame, input.snapshot, expected, pose_factors_);
   };
   std::optional<PlanePose> pose = estimate(*input.frame);
-  if (!pose) return std::nullopt;
+  if (!pose || (span == PlanesSpan::kSpace && !pose->is_determined)) return std::nullopt;
   TrackedFrame tracked;
   tracked.frame = CompensateAgain(input, pose->cam_from_world);
   pose = estimate(*tracked.frame);
@@ -299,14 +305,17 @@ TrackedFrame Tracker::TrackLocalMap(const Input& input, const FramePose& initial
   return tracked;
 }
 
+bool Tracker::IsInMap(const Input& input, const FramePose& initial) const {
+  const PerKind<int> num_landmarks = SizesOf(LandmarkInliers(initial.matches));
+  return input.prediction.by_factors.usable ||
+         NumMatches(options_, *input.frame, num_landmarks) >= options_.min_matches;
+}
+
 PosePriorBesidePlanes Tracker::PriorOf(const Input& input, const FramePose& initial) const {
   const Rigid3& cam_from_world = initial.cam_from_world;
   PosePriorBesidePlanes prior{cam_from_world,
                               CameraCovariance(cam_from_world, initial.summary.covariance)};
-  const PerKind<int> num_landmarks = SizesOf(LandmarkInliers(initial.matches));
-  const bool is_in_map = input.prediction.by_factors.usable ||
-                         NumMatches(options_, *input.frame, num_landmarks) >= options_.min_matches;
-  if (is_in_map) return prior;
+  if (IsInMap(input, initial)) return prior;
   const Rigid3 cam_from_last = cam_from_world * input.last_from_world.Inverse();
   prior.correctable = TransportCovariance(cam_from_last, last_covariance_);
   return prior;

@@ -65,6 +65,8 @@ class Tracker {
   }
 
  private:
+  // The directions of the planes that give a pose.
+  enum class PlanesSpan { kAny, kSpace };
   // A frame and what is known about it before it is matched.
   struct Input {
     const MapSnapshot& snapshot;
@@ -88,9 +90,9 @@ class Tracker {
   // Without an initial pose: bridges the frame, unless it begins a new segment, or a new part of
   // the map, where pose factors have moved the camera.
   TrackedFrame TrackInGap(const Input& input);
-  // Without an initial pose: by the planes and the pose factors; std::nullopt if the frame does not
-  // follow one with a pose, or matches no plane.
-  std::optional<TrackedFrame> TrackByPlanes(const Input& input);
+  // Without an initial pose in the map: by the planes and the pose factors; std::nullopt if the
+  // frame does not follow one with a pose, or its matched planes do not span the directions.
+  std::optional<TrackedFrame> TrackByPlanes(const Input& input, PlanesSpan span);
   // The frame as the velocity compensates it that a pose yields.
   std::shared_ptr<const Frame> CompensateAgain(const Input& input,
                                                const Rigid3& cam_from_world) const;
@@ -110,8 +112,10 @@ class Tracker {
   // has too few landmarks.
   TrackedFrame TrackLocalMap(const Input& input, const FramePose& initial,
                              PoseEstimator* estimator) const;
-  // An initial pose with too few landmarks rests on other features of the last frame, whose own
-  // error it inherits.
+  // Whether landmarks or custom factors determine an initial pose. Another one rests on features of
+  // the last frame.
+  bool IsInMap(const Input& input, const FramePose& initial) const;
+  // A pose that rests on features of the last frame inherits the error of that.
   PosePriorBesidePlanes PriorOf(const Input& input, const FramePose& initial) const;
   // Corrects an initial pose by the matched planes of the frame. Returns false if they do not.
   bool CorrectByPlanes(const MapSnapshot& snapshot, const PosePriorBesidePlanes& prior,
