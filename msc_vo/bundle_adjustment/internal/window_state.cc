@@ -9,8 +9,15 @@ namespace msc_vo {
 
 namespace {
 
-const Rigid3Manifold kPoseManifold;
-const Rotation3Manifold kRotationManifold;
+// Not objects of the namespace: others may need them while they are initialised.
+const ceres::Manifold* PoseManifold() {
+  static const Rigid3Manifold manifold;
+  return &manifold;
+}
+const ceres::Manifold* RotationManifold() {
+  static const Rotation3Manifold manifold;
+  return &manifold;
+}
 
 }  // namespace
 
@@ -42,7 +49,7 @@ WindowState::WindowState(const WindowData& data)
   for (const msc_vo::ExtraBlock& e : data.extra_blocks) {
     AppendExtra(e.value.data(), static_cast<int>(e.value.size()), e.manifold.get());
   }
-  if (data.axes) AppendExtra(data.axes->world_from_axes.coeffs().data(), 4, &kRotationManifold);
+  if (data.axes) AppendExtra(data.axes->world_from_axes.coeffs().data(), 4, RotationManifold());
 }
 
 void WindowState::AppendExtra(const double* value, int size, const ceres::Manifold* manifold) {
@@ -76,7 +83,7 @@ int WindowState::TangentSize(const StateBlock& block) const {
 }
 
 const ceres::Manifold* WindowState::ManifoldOf(const StateBlock& block) const {
-  if (block.kind == BlockKind::kPose) return &kPoseManifold;
+  if (block.kind == BlockKind::kPose) return PoseManifold();
   return block.kind == BlockKind::kExtra ? extra_[block.position].manifold : nullptr;
 }
 
