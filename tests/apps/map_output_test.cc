@@ -116,6 +116,16 @@ TEST_F(MapOutputTest, RefusesToWriteTheVideoOverImages) {
   ExpectRefused({"--overlay", video}, video);
 }
 
+TEST_F(MapOutputTest, MergesNoMapBesideTheJournalOfAnother) {
+  WriteFile(Path("merged.map-journal"), "left from a killed run");
+  fs::copy_file(Path("home.map"), Path("copy.map"));
+  const CommandOutcome outcome = RunCommand(
+      {"map", "merge", Path("home.map"), Path("copy.map"), "--output", Path("merged.map")});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.output, LineNames("error:", Path("merged.map-journal"), "remove it"));
+  EXPECT_FALSE(HasEntry(Path("merged.map")));
+}
+
 TEST_F(MapOutputTest, RefusesEmptyNames) {
   for (const char* option : {"--map", "--localize"}) {
     const CommandOutcome outcome = Replay({option, ""});

@@ -82,7 +82,10 @@ TEST(PosePlausibility, DoubtsImplausiblePoses) {
   EXPECT_TRUE(plausibility.UpdateDoubt(2.0, jump, jump).isApprox(IsotropicCovariance(0.9, 1.5)));
   const Rigid3 turn(ExpSO3({0.0, 0.5, 0.0}), {0.0, 0.0, 0.0});
   EXPECT_TRUE(plausibility.UpdateDoubt(2.1, turn, rest).isApprox(IsotropicCovariance(0.9, 1.5)));
-  EXPECT_TRUE(plausibility.UpdateDoubt(7.1, rest, rest).isZero());
+  plausibility.MarkImplausible(3.0);
+  const Rigid3 longer(Eigen::Quaterniond::Identity(), {0.0, 5.0, 0.0});
+  EXPECT_TRUE(plausibility.UpdateDoubt(3.0, rest, longer).isApprox(IsotropicCovariance(0.0, 5.0)));
+  EXPECT_TRUE(plausibility.UpdateDoubt(8.1, rest, rest).isZero());
 }
 
 TEST(PosePlausibility, BelievesSlowMotionsAfterRest) {
