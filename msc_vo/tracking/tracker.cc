@@ -84,7 +84,7 @@ TrackedFrame Tracker::TrackFrame(const std::shared_ptr<const Frame>& raw,
 
 TrackedFrame Tracker::TrackInMap(const Input& input, const InitialPose& initial,
                                  PoseEstimator* estimator) {
-  if (!IsInMap(input, initial.pose)) {
+  if (!IsInMap(input, initial.pose) && !input.snapshot.calibration_is_doubted) {
     // Blank walls have false corners, which show a motion of their own.
     if (std::optional<TrackedFrame> tracked = TrackByPlanes(input, PlanesSpan::kSpace)) {
       return *tracked;

@@ -96,7 +96,7 @@ class Tracker {
   // The frame as the velocity compensates it that a pose yields.
   std::shared_ptr<const Frame> CompensateAgain(const Input& input,
                                                const Rigid3& cam_from_world) const;
-  // What the last frame and the pose factors tell of the pose.
+  // The pose that the last frame and the pose factors predict.
   ExpectedPose ExpectPoseOf(const Input& input) const;
   // The frame with the predicted pose, predicted or lost.
   TrackedFrame BridgeWithPrediction(const Input& input) const;
