@@ -14,7 +14,7 @@
 #include "apps/cli/command_log.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/evaluation_output.h"
-#include "apps/cli/map_mark.h"
+#include "apps/cli/map_argument.h"
 #include "msc_vo/datasets/trajectory_format.h"
 #include "msc_vo/evaluation/line_error.h"
 #include "msc_vo/evaluation/trajectory_error.h"

@@ -107,7 +107,7 @@ void ReplaceExport(const std::string& folder, const std::string& input,
   const bool is_new = !HasEntry(folder);
   MakeFolder(folder);
   try {
-    const UnfinishedFolder unfinished((fs::path(folder) / kUnfinishedName).string());
+    const UnfinishedFolder unfinished(PathIn(folder, kUnfinishedName));
     write(unfinished.path());
     const FileNames names = FilesBelow(unfinished.path());
     RefuseToLose(folder, earlier, names, input);

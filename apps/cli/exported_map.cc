@@ -95,20 +95,15 @@ std::string NameByNumber(const Keyframe& keyframe) {
 // Names the image of a keyframe by the sequence.
 std::string NameInSequence(const RgbdDecoder& decoder, const Keyframe& keyframe) {
   const std::vector<SequenceEntry>& entries = decoder.index().entries;
-  const auto delay = [&](const SequenceEntry& entry) {
-    return std::abs(entry.timestamp - keyframe.frame->timestamp);
-  };
-  const auto nearest = std::min_element(
-      entries.begin(), entries.end(),
-      [&](const SequenceEntry& a, const SequenceEntry& b) { return delay(a) < delay(b); });
-  if (delay(*nearest) > kMaxPoseDelay) {
+  const SequenceEntry& nearest = entries[static_cast<size_t>(NearestEntry(keyframe, entries))];
+  if (std::abs(nearest.timestamp - keyframe.frame->timestamp) > kMaxPoseDelay) {
     throw std::runtime_error(FormatText(
         "%s: has no image of the keyframe at %.6f s; give the sequence of the map, or none: "
         "images are then named by numbers",
         decoder.index().directory.c_str(), keyframe.frame->timestamp));
   }
   CheckImageSize(keyframe, decoder);
-  return ColmapImageName(decoder.index(), *nearest);
+  return ColmapImageName(decoder.index(), nearest);
 }
 
 // The function that names the images of keyframes. With a sequence, leaves its keyframes only.

@@ -12,7 +12,7 @@
 #include "apps/cli/commands.h"
 #include "apps/cli/configuration_arguments.h"
 #include "apps/cli/depth_fusion.h"
-#include "apps/cli/map_mark.h"
+#include "apps/cli/map_argument.h"
 #include "apps/cli/modules.h"
 #include "apps/cli/output_file.h"
 #include "apps/cli/posed_images.h"

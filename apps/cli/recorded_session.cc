@@ -68,19 +68,6 @@ bool HasName(const Candidate& candidate, const SessionQuery& query) {
   return candidate.name.substr(0, candidate.name.rfind(", ")) == SequenceName(query.sequence);
 }
 
-// The entry whose time stamp is nearest to that of the keyframe.
-int NearestEntry(const Keyframe& keyframe, const std::vector<SequenceEntry>& entries) {
-  const double stamp = keyframe.frame->timestamp;
-  const auto after = std::lower_bound(
-      entries.begin(), entries.end(), stamp,
-      [](const SequenceEntry& entry, double time) { return entry.timestamp < time; });
-  const auto index = after - entries.begin();
-  if (after == entries.begin()) return 0;
-  const bool is_before =
-      after == entries.end() || stamp - (after - 1)->timestamp < after->timestamp - stamp;
-  return static_cast<int>(is_before ? index - 1 : index);
-}
-
 double DelayOf(const Keyframe& keyframe, const std::vector<SequenceEntry>& entries) {
   const int nearest = NearestEntry(keyframe, entries);
   return std::abs(entries[static_cast<size_t>(nearest)].timestamp - keyframe.frame->timestamp);
@@ -104,7 +91,7 @@ StampAgreement CompareStamps(const Candidate& candidate,
 // Correlation of the image of a keyframe in the map with the image of the sequence. Leaves out what
 // a mask has made black. nullopt: one of them cannot be compared.
 std::optional<double> Correlation(const std::string& jpeg, const RgbdDecoder& images, int index) {
-  constexpr int kBlack = 12;
+  constexpr int kBlack = 12;  // grey levels; JPEG does not keep 0 beside other pixels
   const cv::Mat known = DecodeJpeg(jpeg, JpegChannels::kGray);
   if (known.empty()) return std::nullopt;
   cv::Mat image;
@@ -127,7 +114,7 @@ std::optional<double> Correlation(const std::string& jpeg, const RgbdDecoder& im
 // Compares some of the keyframes that have an image in the map.
 ImageAgreement CompareImages(const MapImages& known, const Candidate& candidate,
                              const RgbdDecoder& images) {
-  constexpr size_t kNumCompared = 9;
+  constexpr size_t kNumCompared = 9;  // bounds the time; a few that another object hides do no harm
   constexpr double kMinCorrelation = 0.9;  // the same images: 0.97 and more; other ones: up to 0.3
   std::vector<double> correlations;
   const size_t step = (candidate.keyframes.size() + kNumCompared - 1) / kNumCompared;
@@ -163,6 +150,18 @@ Agreement KeepBest(const Compare& compare, std::vector<Candidate>* candidates) {
 }
 
 }  // namespace
+
+int NearestEntry(const Keyframe& keyframe, const std::vector<SequenceEntry>& entries) {
+  const double stamp = keyframe.frame->timestamp;
+  const auto after = std::lower_bound(
+      entries.begin(), entries.end(), stamp,
+      [](const SequenceEntry& entry, double time) { return entry.timestamp < time; });
+  const auto index = after - entries.begin();
+  if (after == entries.begin()) return 0;
+  const bool is_before =
+      after == entries.end() || stamp - (after - 1)->timestamp < after->timestamp - stamp;
+  return static_cast<int>(is_before ? index - 1 : index);
+}
 
 KeyframeRange FindSession(const SessionQuery& query, const MapContents& contents,
                           const RgbdDecoder& images) {

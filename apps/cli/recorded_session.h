@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "msc_vo/datasets/rgbd_decoder.h"
 #include "msc_vo/map/map_contents.h"
@@ -15,6 +16,9 @@ struct KeyframeRange {
   KeyframeId first = 0, end = 0;
   bool Contains(KeyframeId id) const { return first <= id && id < end; }
 };
+
+/// The index of the image whose time stamp is nearest to that of the keyframe.
+int NearestEntry(const Keyframe& keyframe, const std::vector<SequenceEntry>& entries);
 
 /// Describes the session of a map that is looked for.
 struct SessionQuery {

@@ -14,7 +14,7 @@
 #include "apps/cli/exported_images.h"
 #include "apps/cli/exported_map.h"
 #include "apps/cli/interrupt_guard.h"
-#include "apps/cli/map_mark.h"
+#include "apps/cli/map_argument.h"
 #include "apps/cli/modules.h"
 #include "apps/cli/output_file.h"
 #include "msc_vo/datasets/trajectory.h"

@@ -28,17 +28,6 @@ bool AreSame(const MapSession& a, const MapSession& b) {
   return a.first_keyframe == b.first_keyframe && a.name == b.name;
 }
 
-// Removes the last session, that of the run, if no keyframe of it is in the maps.
-void LeaveOutEmptySession(const std::vector<SavedSubMap>& submaps,
-                          std::vector<MapSession>* sessions) {
-  const KeyframeId first = sessions->back().first_keyframe;
-  const auto has_own = [first](const SavedSubMap& submap) {
-    const auto& keyframes = submap.map.keyframes();
-    return !keyframes.empty() && keyframes.back().first >= first;
-  };
-  if (std::none_of(submaps.begin(), submaps.end(), has_own)) sessions->pop_back();
-}
-
 // The keyframes of earlier sessions that show most of what the frame shows.
 std::vector<KeyframeId> EarlierKeyframes(const TrackedImage& tracked) {
   const Map& map = tracked.map.map;
@@ -185,7 +174,7 @@ void RunMap::Save(Odometry* odometry) {
   if (!writer_) return;
   std::optional<MapContents> contents = odometry->ShareMaps(session_);
   if (!contents) return;
-  LeaveOutEmptySession(contents->submaps, &contents->sessions);
+  LeaveOutEmptySession(&*contents);
   if (contents->submaps.empty() || contents->sessions.empty()) return;
   KeyframeId next = 0;
   for (const SavedSubMap& submap : contents->submaps) {

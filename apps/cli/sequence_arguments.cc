@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "apps/cli/commands.h"
-#include "apps/cli/map_mark.h"
+#include "apps/cli/map_argument.h"
 #include "apps/cli/modules.h"
 #include "msc_vo/datasets/camera_preset.h"
 #include "msc_vo/datasets/clipped_depth_search.h"

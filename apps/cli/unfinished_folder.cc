@@ -77,8 +77,6 @@ UnfinishedFolder::~UnfinishedFolder() {
   close(lock_);
 }
 
-std::string UnfinishedFolder::File(const std::string& name) const {
-  return (fs::path(path_) / name).string();
-}
+std::string UnfinishedFolder::File(const std::string& name) const { return PathIn(path_, name); }
 
 }  // namespace msc_vo

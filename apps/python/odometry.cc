@@ -46,21 +46,6 @@ void CheckByteOrder(const cv::Mat& depth, const py::object& depth_scale) {
       "with the high byte first");
 }
 
-// Removes the last session, that of the run, if no keyframe of it is in the maps. Throws
-// std::invalid_argument if they have no keyframes at all: an empty map must not replace another.
-void LeaveOutEmptySession(const std::string& path, MapContents* contents) {
-  KeyframeId newest = kNoId;
-  for (const SavedSubMap& submap : contents->submaps) {
-    const auto& keyframes = submap.map.keyframes();
-    if (!keyframes.empty()) newest = std::max(newest, keyframes.back().first);
-  }
-  if (newest == kNoId) {
-    throw std::invalid_argument(path + ": not written, since the map has no keyframes yet; save " +
-                                "it after the first image with a pose");
-  }
-  if (newest < contents->sessions.back().first_keyframe) contents->sessions.pop_back();
-}
-
 // The odometry without the GIL, and the numbering of its images.
 class PyOdometry {
  public:
@@ -120,7 +105,12 @@ class PyOdometry {
     const std::map<KeyframeId, std::string> jpegs(images.begin(), images.end());
     auto maps = Alone([&] { return odometry_->ShareMaps(session); });
     if (!maps) throw std::runtime_error(path + ": not written, since a keyframe step has failed");
-    LeaveOutEmptySession(path, &*maps);
+    LeaveOutEmptySession(&*maps);
+    if (maps->sessions.empty()) {
+      throw std::invalid_argument(path +
+                                  ": not written, since the map has no keyframes yet; save " +
+                                  "it after the first image with a pose");
+    }
     const py::gil_scoped_release release;
     SaveMap(path, std::move(*maps), [&jpegs](KeyframeId id) {
       const auto jpeg = jpegs.find(id);

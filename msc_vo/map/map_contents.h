@@ -58,6 +58,16 @@ auto FindSubMap(Contents& contents, int64_t id) -> decltype(contents.submaps.dat
   return nullptr;
 }
 
+/// Removes the last session if none of its keyframes is in the submaps.
+inline void LeaveOutEmptySession(MapContents* contents) {
+  const KeyframeId first = contents->sessions.back().first_keyframe;
+  for (const SavedSubMap& submap : contents->submaps) {
+    const auto& keyframes = submap.map.keyframes();
+    if (!keyframes.empty() && keyframes.back().first >= first) return;
+  }
+  contents->sessions.pop_back();
+}
+
 /// The keyframe in any of the submaps; nullptr if there is none with this id.
 inline const Keyframe* FindKeyframe(const MapContents& contents, KeyframeId id) {
   for (const SavedSubMap& submap : contents.submaps) {

@@ -46,6 +46,8 @@ MapContents LoadMap(const std::string& path) {
   });
 }
 
+bool IsMapFile(const std::string& path) { return ApplicationIdOf(path) == kApplicationId; }
+
 void CheckMap(const std::string& path) {
   ReadFrom(path, [&](const SqliteDatabase& database) {
     SqliteStatement check = database.Prepare("PRAGMA integrity_check(1)");

@@ -11,6 +11,9 @@
 
 namespace msc_vo {
 
+/// Whether a regular file has the header of a map. Whether it is damaged is not tested.
+bool IsMapFile(const std::string& path);
+
 /// Reads a map (docs/map_file.md). What it depends on is recomputed: observations, descriptors and
 /// viewing directions of landmarks. Throws std::runtime_error that names the file, the problem and
 /// the fix if it is missing, no map, damaged, of a newer version, or written by a run right now.

@@ -9,8 +9,8 @@
 
 namespace msc_vo {
 
-/// Contrast (standard deviation of the grey levels) below which an image shows nothing: noise of a
-/// sensor in the dark has 2 to 3.
+/// Contrast (standard deviation of the grey levels) below which an image shows nothing; sensor
+/// noise is about 2.
 constexpr double kMinImageContrast = 4.0;
 /// Ratio of the pixels with a depth below which an image has no depth.
 constexpr double kMinMeasuredDepth = 0.05;

@@ -108,6 +108,17 @@ FrameMatches LandmarkInliers(const FrameMatches& matches) {
   return inliers;
 }
 
+PerKind<int> CountLandmarkInliers(const FrameMatches& matches) {
+  PerKind<int> count{};
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    for (const auto& match : matches.Of<L>()) {
+      count.Of<L>() += match.inlier && match.id != kNoId ? 1 : 0;
+    }
+  });
+  return count;
+}
+
 PoseSummary EstimateFramePose(const PoseOptions& options, const Frame& frame, const Map& map,
                               const NoiseScale& scale, const std::vector<PoseFactor>& factors,
                               Rigid3* cam_from_world, FrameMatches* matches) {

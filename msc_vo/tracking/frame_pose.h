@@ -27,6 +27,7 @@ FrameMatches MatchLocalMap(const TrackerOptions& options, const Frame& frame, co
 
 /// The inliers among the matches with landmarks.
 FrameMatches LandmarkInliers(const FrameMatches& matches);
+PerKind<int> CountLandmarkInliers(const FrameMatches& matches);
 
 /// A pose of a frame in a map, and the matches that it was estimated from.
 struct FramePose {

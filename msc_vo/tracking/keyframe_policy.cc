@@ -13,9 +13,6 @@ namespace {
 // Longest time between two frames that counts towards the intervals of keyframes, seconds: the
 // first frame after a gap, whose pose is uncertain, is no keyframe because of the gap alone.
 constexpr double kMaxFrameInterval = 0.5;
-// Ratio of the features in the map that chance may match: one of the twenty features with depth
-// that begin a map, and as much again.
-constexpr double kMinKnownRatio = 0.1;
 // A point is close if the standard deviation of its depth is below this fraction of the depth
 // (0.5 %: 3.5 m for a Kinect). Close points determine the translation, so that their ratio is
 // tested separately too.
@@ -65,9 +62,8 @@ bool KeyframePolicy::IsDue(const Frame& frame, const FrameMatches& matches, bool
   seconds_since_keyframe_ += std::min(frame.timestamp - last_frame_time_, kMaxFrameInterval);
   last_frame_time_ = frame.timestamp;
   if (seconds_since_keyframe_ < options_.min_interval) return false;
-  // Features that are followed from frame to frame, hardly any of them in the map, are those of a
-  // new part of the scene.
-  const bool is_new = !certain && ratios.all < kMinKnownRatio;
+  // The best ratio is zero as well if no frame since the last keyframe has a feature in the map.
+  const bool is_new = !certain && ratios.all == 0.0;
   return is_new || (certain && seconds_since_keyframe_ >= options_.max_interval) ||
          ratios.all < options_.min_tracked_ratio * best_.all ||
          ratios.close < options_.min_tracked_ratio * best_.close;

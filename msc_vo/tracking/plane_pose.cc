@@ -41,18 +41,31 @@ PoseCovariance FreeMotions(const std::vector<PlaneFeature>& planes) {
   const Eigen::Matrix3d translations = FreeTranslations(planes);
   PoseCovariance motions = PoseCovariance::Zero();
   motions.bottomRightCorner<3, 3>() = translations;
-  // Parallel planes: the turn about their normal, too.
+  // Parallel planes, which leave two translations free, also leave the turn about their normal.
   const bool are_parallel = translations.trace() > 1.5;
   if (are_parallel) motions.topLeftCorner<3, 3>() = Eigen::Matrix3d::Identity() - translations;
   return motions;
 }
 
 // `free`: FreeMotions().
-PoseFactor PriorFactor(const PosePriorBesidePlanes& prior, const PoseCovariance& free) {
+PoseFactor PriorFactor(const PlanePosePrior& prior, const PoseCovariance& free) {
   const PoseCovariance bound = PoseCovariance::Identity() - free;
   const PoseCovariance covariance = CovarianceOfCamera(
       prior.cam_from_world, prior.covariance + bound * prior.correctable * bound);
   return {"motion", PosePrior::CreateShared(prior.cam_from_world, covariance), nullptr};
+}
+
+// By planes and other factors, without points and lines.
+PoseSummary Estimate(const TrackerOptions& options, const Frame& frame,
+                     const std::vector<PlaneMatch>& planes, const MapSnapshot& snapshot,
+                     PlanesBeside beside, const std::vector<PoseFactor>& others,
+                     Rigid3* cam_from_world) {
+  std::vector<PoseFactor> factors =
+      MakePlanePoseFactors(frame.planes, planes, snapshot.planes, beside);
+  factors.insert(factors.end(), others.begin(), others.end());
+  FrameMatches none;
+  return EstimateFramePose(options.pose, frame, snapshot.map, snapshot.noise_scale, factors,
+                           cam_from_world, &none);
 }
 
 }  // namespace
@@ -83,19 +96,14 @@ std::optional<PlanePose> EstimateByPlanes(const TrackerOptions& options, const F
   std::vector<PoseFactor> beside_planes = factors;
   PoseCovariance free_error = PoseCovariance::Zero();
   if (expected.free && !pose.is_determined) {
-    const PosePriorBesidePlanes rest{expected.cam_from_world,
-                                     IsotropicCovariance(kHeldSigma, kHeldSigma), *expected.free};
+    const PlanePosePrior rest{expected.cam_from_world, IsotropicCovariance(kHeldSigma, kHeldSigma),
+                              *expected.free};
     const PoseCovariance free = FreeMotions(MatchedFeatures(frame, pose.planes));
     beside_planes.push_back(PriorFactor(rest, free));
     free_error = free * rest.correctable * free;
   }
   const auto estimate = [&](PlanesBeside beside, Rigid3* cam_from_world) {
-    std::vector<PoseFactor> all =
-        MakePlanePoseFactors(frame.planes, pose.planes, snapshot.planes, beside);
-    all.insert(all.end(), beside_planes.begin(), beside_planes.end());
-    FrameMatches none;
-    return EstimateFramePose(options.pose, frame, snapshot.map, snapshot.noise_scale, all,
-                             cam_from_world, &none);
+    return Estimate(options, frame, pose.planes, snapshot, beside, beside_planes, cam_from_world);
   };
   pose.cam_from_world = expected.cam_from_world;
   pose.summary = estimate(PlanesBeside::kNothing, &pose.cam_from_world);
@@ -109,19 +117,20 @@ std::optional<PlanePose> EstimateByPlanes(const TrackerOptions& options, const F
   return pose;
 }
 
-PoseSummary EstimateBesidePlanes(const TrackerOptions& options, const Frame& frame,
-                                 const std::vector<PlaneMatch>& planes, const MapSnapshot& snapshot,
-                                 const PosePriorBesidePlanes& prior, Rigid3* cam_from_world) {
+bool CorrectByPlanes(const TrackerOptions& options, const Frame& frame,
+                     const std::vector<PlaneMatch>& planes, const MapSnapshot& snapshot,
+                     const PlanePosePrior& prior, FramePose* pose) {
+  if (planes.empty()) return false;
   const PoseCovariance free = FreeMotions(MatchedFeatures(frame, planes));
-  std::vector<PoseFactor> factors =
-      MakePlanePoseFactors(frame.planes, planes, snapshot.planes, PlanesBeside::kPointsAndLines);
-  factors.push_back(PriorFactor(prior, free));
-  *cam_from_world = prior.cam_from_world;
-  FrameMatches none;
-  PoseSummary summary = EstimateFramePose(options.pose, frame, snapshot.map, snapshot.noise_scale,
-                                          factors, cam_from_world, &none);
-  summary.covariance += CovarianceOfCamera(*cam_from_world, free * prior.correctable * free);
-  return summary;
+  Rigid3 corrected = prior.cam_from_world;
+  const PoseSummary summary =
+      Estimate(options, frame, planes, snapshot, PlanesBeside::kPointsAndLines,
+               {PriorFactor(prior, free)}, &corrected);
+  if (!summary.usable) return false;
+  pose->cam_from_world = corrected;
+  pose->summary.covariance =
+      summary.covariance + CovarianceOfCamera(corrected, free * prior.correctable * free);
+  return true;
 }
 
 bool DetermineAPose(const Frame& frame, const std::vector<PlaneMatch>& matches) {

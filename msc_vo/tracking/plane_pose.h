@@ -13,7 +13,7 @@
 namespace msc_vo {
 
 /// Prior of a pose, used with planes. The covariances are of the camera, in its frame.
-struct PosePriorBesidePlanes {
+struct PlanePosePrior {
   Rigid3 cam_from_world;
   PoseCovariance covariance = PoseCovariance::Zero();
   /// Covariance of an independent error that planes may correct. Where they leave the camera free,
@@ -52,10 +52,11 @@ std::optional<PlanePose> EstimateByPlanes(const TrackerOptions& options, const F
                                           const MapSnapshot& snapshot, const ExpectedPose& expected,
                                           const std::vector<PoseFactor>& factors);
 
-/// Estimates the pose of a frame by its matched planes and a prior.
-PoseSummary EstimateBesidePlanes(const TrackerOptions& options, const Frame& frame,
-                                 const std::vector<PlaneMatch>& planes, const MapSnapshot& snapshot,
-                                 const PosePriorBesidePlanes& prior, Rigid3* cam_from_world);
+/// Corrects a pose of a frame, which the prior describes, by the matched planes. Returns false, and
+/// changes nothing, if there are none or if they give no pose.
+bool CorrectByPlanes(const TrackerOptions& options, const Frame& frame,
+                     const std::vector<PlaneMatch>& planes, const MapSnapshot& snapshot,
+                     const PlanePosePrior& prior, FramePose* pose);
 
 /// Whether the matched planes determine a pose.
 bool DetermineAPose(const Frame& frame, const std::vector<PlaneMatch>& matches);

@@ -36,16 +36,17 @@ void PosePlausibility::MarkImplausible(double timestamp) {
   is_marked_ = true;
 }
 
-const PoseCovariance& PosePlausibility::UpdateDoubt(double timestamp, const Rigid3& cam_from_last,
-                                                    const Rigid3& cam_from_predicted) {
-  doubt_ = TransportCovariance(cam_from_last, doubt_);
-  if (!IsImplausible(timestamp)) doubt_.setZero();
+const PoseCovariance& PosePlausibility::UpdateJumpCovariance(double timestamp,
+                                                             const Rigid3& cam_from_last,
+                                                             const Rigid3& cam_from_predicted) {
+  jump_covariance_ = TransportCovariance(cam_from_last, jump_covariance_);
+  if (!IsImplausible(timestamp)) jump_covariance_.setZero();
   if (std::exchange(is_marked_, false)) {
     const PoseCovariance of_jump = IsotropicCovariance(LogSO3(cam_from_predicted.rotation()).norm(),
                                                        cam_from_predicted.translation().norm());
-    if (of_jump.trace() > doubt_.trace()) doubt_ = of_jump;
+    if (of_jump.trace() > jump_covariance_.trace()) jump_covariance_ = of_jump;
   }
-  return doubt_;
+  return jump_covariance_;
 }
 
 }  // namespace msc_vo

@@ -40,21 +40,21 @@ class PosePlausibility {
   /// Covariance of the camera, in its frame, to be added to that of an implausible pose: the camera
   /// may be where it was predicted, at the largest jump of these seconds. Call it once for each
   /// pose, after the others.
-  const PoseCovariance& UpdateDoubt(double timestamp, const Rigid3& cam_from_last,
-                                    const Rigid3& cam_from_predicted);
+  const PoseCovariance& UpdateJumpCovariance(double timestamp, const Rigid3& cam_from_last,
+                                             const Rigid3& cam_from_predicted);
 
   /// Lists the state for a checkpoint.
   template <typename Archive>
   void Serialize(Archive& archive) {
-    auto& [limits, implausible_until, marked, doubt] = *this;  // all members
-    archive(limits, implausible_until, marked, doubt);
+    auto& [limits, implausible_until, marked, jump_covariance] = *this;  // all members
+    archive(limits, implausible_until, marked, jump_covariance);
   }
 
  private:
   MotionLimits limits_;
   double implausible_until_ = std::numeric_limits<double>::lowest();  // seconds
-  bool is_marked_ = false;  // since the last UpdateDoubt()
-  PoseCovariance doubt_ = PoseCovariance::Zero();
+  bool is_marked_ = false;  // since the last UpdateJumpCovariance()
+  PoseCovariance jump_covariance_ = PoseCovariance::Zero();
 };
 
 }  // namespace msc_vo

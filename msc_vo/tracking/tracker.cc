@@ -84,13 +84,14 @@ TrackedFrame Tracker::TrackFrame(const std::shared_ptr<const Frame>& raw,
 
 TrackedFrame Tracker::TrackInMap(const Input& input, const InitialPose& initial,
                                  PoseEstimator* estimator) {
-  if (!IsInMap(input, initial.pose) && !input.snapshot.calibration_is_doubted) {
+  const bool is_in_map = IsInMap(input, initial.pose);
+  if (!is_in_map && !input.snapshot.calibration_is_doubted) {
     // Blank walls have false corners, which show a motion of their own.
     if (std::optional<TrackedFrame> tracked = TrackByPlanes(input, PlanesSpan::kSpace)) {
       return *tracked;
     }
   }
-  TrackedFrame tracked = TrackLocalMap(input, initial.pose, estimator);
+  TrackedFrame tracked = TrackLocalMap(input, initial.pose, is_in_map, estimator);
   tracked.relocalized = initial.origin == PoseOrigin::kAfterGap;
   ConfirmStatus(input, initial.origin, &tracked);
   tracked.keyframe = ProposeKeyframe(input, tracked, estimator);
@@ -101,7 +102,7 @@ TrackedFrame Tracker::TrackInMap(const Input& input, const InitialPose& initial,
   relocalization_.Reset();
   segment_start_.Tracked(tracked.frame->timestamp);
   Follow(&tracked);
-  AddDoubt(input, &tracked);
+  AddJumpCovariance(input, &tracked);
   return tracked;
 }
 
@@ -147,7 +148,7 @@ std::optional<TrackedFrame> Tracker::TrackByPlanes(const Input& input, PlanesSpa
   if (pose->is_determined) relocalization_.Reset();
   segment_start_.Tracked(timestamp);
   Follow(&tracked);
-  AddDoubt(input, &tracked);
+  AddJumpCovariance(input, &tracked);
   return tracked;
 }
 
@@ -271,7 +272,7 @@ bool Tracker::IsOutsideMappedArea(const Map& map, const TrackedFrame& tracked) c
   return NumMatches(options_, frame, SizesOf(visible)) < options_.min_matches;
 }
 
-TrackedFrame Tracker::TrackLocalMap(const Input& input, const FramePose& initial,
+TrackedFrame Tracker::TrackLocalMap(const Input& input, const FramePose& initial, bool is_in_map,
                                     PoseEstimator* estimator) const {
   const Map& map = input.snapshot.map;
   TrackedFrame tracked;
@@ -280,57 +281,51 @@ TrackedFrame Tracker::TrackLocalMap(const Input& input, const FramePose& initial
     return SelectLocalMap(map, *tracked.frame, initial.cam_from_world, initial.matches,
                           ReferenceOrNewest(map, last_.reference), options_.max_local_keyframes);
   });
-  FramePose pose = initial;
-  const PosePriorBesidePlanes prior = PriorOf(input, initial);
-  pose.summary.covariance += CovarianceOfCamera(pose.cam_from_world, prior.correctable);
+  const PlanePosePrior prior = PriorOf(input, initial, is_in_map);
+  const PoseCovariance covariance =
+      initial.summary.covariance + CovarianceOfCamera(initial.cam_from_world, prior.correctable);
   if (!input.snapshot.calibration_is_doubted) {
     tracked.planes =
-        MatchPlanes(tracked.frame->planes, input.snapshot.planes, pose.cam_from_world,
-                    CovarianceForMatching(pose.cam_from_world, pose.summary.covariance));
+        MatchPlanes(tracked.frame->planes, input.snapshot.planes, initial.cam_from_world,
+                    CovarianceForMatching(initial.cam_from_world, covariance));
   }
   estimator->AddFactors(MakePlanePoseFactors(tracked.frame->planes, tracked.planes,
                                              input.snapshot.planes, PlanesBeside::kPointsAndLines));
-  const std::optional<FramePose> refined =
+  std::optional<FramePose> pose =
       estimator->MatchAndEstimate(options_.pose, *tracked.frame, local, options_.local_map_radius,
                                   initial.cam_from_world, LandmarkInliers(initial.matches));
-  if (refined) pose = *refined;
-  const bool is_known = refined || (CorrectByPlanes(input.snapshot, prior, tracked, &pose) &&
-                                    DetermineAPose(*tracked.frame, tracked.planes));
-  tracked.status = is_known ? ClassifyStatus(options_, pose.summary) : TrackingStatus::kWeak;
-  tracked.pose = WithDynamicObjects(pose.summary, initial.summary);
-  tracked.matches = LandmarkInliers(pose.matches);
+  bool is_known = pose.has_value();
+  if (!pose) {
+    pose = initial;
+    pose->summary.covariance = covariance;
+    is_known =
+        CorrectByPlanes(options_, *tracked.frame, tracked.planes, input.snapshot, prior, &*pose) &&
+        DetermineAPose(*tracked.frame, tracked.planes);
+  }
+  tracked.status = is_known ? ClassifyStatus(options_, pose->summary) : TrackingStatus::kWeak;
+  tracked.pose = WithDynamicObjects(pose->summary, initial.summary);
+  tracked.matches = LandmarkInliers(pose->matches);
   tracked.visible = IdsOf(local);
-  SetPose(map, pose.cam_from_world, local.reference, &tracked);
+  SetPose(map, pose->cam_from_world, local.reference, &tracked);
   tracked.cam_from_last = tracked.cam_from_world * input.last_from_world.Inverse();
   return tracked;
 }
 
 bool Tracker::IsInMap(const Input& input, const FramePose& initial) const {
-  const PerKind<int> num_landmarks = SizesOf(LandmarkInliers(initial.matches));
+  const PerKind<int> num_landmarks = CountLandmarkInliers(initial.matches);
   return input.prediction.by_factors.usable ||
          NumMatches(options_, *input.frame, num_landmarks) >= options_.min_matches;
 }
 
-PosePriorBesidePlanes Tracker::PriorOf(const Input& input, const FramePose& initial) const {
+PlanePosePrior Tracker::PriorOf(const Input& input, const FramePose& initial,
+                                bool is_in_map) const {
   const Rigid3& cam_from_world = initial.cam_from_world;
-  PosePriorBesidePlanes prior{cam_from_world,
-                              CameraCovariance(cam_from_world, initial.summary.covariance)};
-  if (IsInMap(input, initial)) return prior;
+  PlanePosePrior prior{cam_from_world,
+                       CameraCovariance(cam_from_world, initial.summary.covariance)};
+  if (is_in_map) return prior;
   const Rigid3 cam_from_last = cam_from_world * input.last_from_world.Inverse();
   prior.correctable = TransportCovariance(cam_from_last, last_covariance_);
   return prior;
-}
-
-bool Tracker::CorrectByPlanes(const MapSnapshot& snapshot, const PosePriorBesidePlanes& prior,
-                              const TrackedFrame& tracked, FramePose* pose) const {
-  if (tracked.planes.empty()) return false;
-  Rigid3 cam_from_world;
-  const PoseSummary corrected = EstimateBesidePlanes(options_, *tracked.frame, tracked.planes,
-                                                     snapshot, prior, &cam_from_world);
-  if (!corrected.usable) return false;
-  pose->cam_from_world = cam_from_world;
-  pose->summary.covariance = corrected.covariance;
-  return true;
 }
 
 void Tracker::ConfirmStatus(const Input& input, PoseOrigin origin, TrackedFrame* tracked) {
@@ -348,12 +343,12 @@ void Tracker::ConfirmStatus(const Input& input, PoseOrigin origin, TrackedFrame*
   if (tracked->is_implausible) tracked->status = TrackingStatus::kWeak;
 }
 
-void Tracker::AddDoubt(const Input& input, TrackedFrame* tracked) {
+void Tracker::AddJumpCovariance(const Input& input, TrackedFrame* tracked) {
   const Rigid3& cam_from_world = tracked->cam_from_world;
-  const PoseCovariance& doubt =
-      plausibility_.UpdateDoubt(tracked->frame->timestamp, *tracked->cam_from_last,
-                                cam_from_world * input.prediction.cam_from_world.Inverse());
-  tracked->pose.covariance += CovarianceOfCamera(cam_from_world, doubt);
+  const PoseCovariance& of_jump = plausibility_.UpdateJumpCovariance(
+      tracked->frame->timestamp, *tracked->cam_from_last,
+      cam_from_world * input.prediction.cam_from_world.Inverse());
+  tracked->pose.covariance += CovarianceOfCamera(cam_from_world, of_jump);
 }
 
 KeyframeProposal Tracker::ProposeKeyframe(const Input& input, const TrackedFrame& tracked,

@@ -109,22 +109,19 @@ class Tracker {
   // From the initial pose on: pose in the local map, status, and whether it becomes a keyframe.
   TrackedFrame TrackInMap(const Input& input, const InitialPose& initial, PoseEstimator* estimator);
   // Matches the frame with the local map around its initial pose, which remains, as kWeak, if that
-  // has too few landmarks.
-  TrackedFrame TrackLocalMap(const Input& input, const FramePose& initial,
+  // has too few landmarks. `is_in_map`: IsInMap().
+  TrackedFrame TrackLocalMap(const Input& input, const FramePose& initial, bool is_in_map,
                              PoseEstimator* estimator) const;
-  // Whether landmarks or custom factors determine an initial pose. Another one rests on features of
-  // the last frame.
+  // Whether landmarks or custom factors determine an initial pose. If not, it is relative to the
+  // last frame, by features of that.
   bool IsInMap(const Input& input, const FramePose& initial) const;
-  // A pose that rests on features of the last frame inherits the error of that.
-  PosePriorBesidePlanes PriorOf(const Input& input, const FramePose& initial) const;
-  // Corrects an initial pose by the matched planes of the frame. Returns false if they do not.
-  bool CorrectByPlanes(const MapSnapshot& snapshot, const PosePriorBesidePlanes& prior,
-                       const TrackedFrame& tracked, FramePose* pose) const;
+  // The initial pose as a prior; one relative to the last frame has the error of that, too.
+  PlanePosePrior PriorOf(const Input& input, const FramePose& initial, bool is_in_map) const;
   // Makes a tracked frame kWeak and implausible if its pose, or one of the last five seconds,
   // follows a gap, and is weak, takes an implausible motion, or contradicts the depth images.
   void ConfirmStatus(const Input& input, PoseOrigin origin, TrackedFrame* tracked);
-  // Adds the doubt about an implausible pose to its covariance; the next frame does not inherit it.
-  void AddDoubt(const Input& input, TrackedFrame* tracked);
+  // Adds the covariance of the jump to that of an implausible pose, not to `last_covariance_`.
+  void AddJumpCovariance(const Input& input, TrackedFrame* tracked);
   // Decides whether the frame becomes a keyframe.
   KeyframeProposal ProposeKeyframe(const Input& input, const TrackedFrame& tracked,
                                    PoseEstimator* estimator);

@@ -61,16 +61,15 @@ TEST_F(CorridorTest, HoldsTheCameraWherePlanesLeaveItFree) {
 TEST_F(CorridorTest, CorrectsTheErrorOfTheLastPoseAcrossTheCorridor) {
   std::vector<PlaneMatch> matches;
   for (int i = 0; i < 3; ++i) matches.push_back({i, i});
-  PosePriorBesidePlanes prior{Rigid3(Eigen::Quaterniond::Identity(), {0.5, 0.0, 0.0})};
+  PlanePosePrior prior{Rigid3(Eigen::Quaterniond::Identity(), {0.5, 0.0, 0.0})};
   prior.covariance = IsotropicCovariance(0.001, 0.002);
   prior.correctable = IsotropicCovariance(0.01, 1.0);
-  Rigid3 cam_from_world;
-  const PoseSummary summary =
-      EstimateBesidePlanes(options_, frame_, matches, snapshot_, prior, &cam_from_world);
-  ASSERT_TRUE(summary.usable);
+  FramePose pose;
+  ASSERT_TRUE(CorrectByPlanes(options_, frame_, matches, snapshot_, prior, &pose));
+  const Rigid3& cam_from_world = pose.cam_from_world;
   EXPECT_LT(std::abs(cam_from_world.OriginInSource().x()), 0.02);
   EXPECT_LT(Along(cam_from_world), 1e-3);
-  const PoseCovariance covariance = CameraCovariance(cam_from_world, summary.covariance);
+  const PoseCovariance covariance = CameraCovariance(cam_from_world, pose.summary.covariance);
   EXPECT_LT(std::sqrt(covariance(3, 3)), 0.1);
   EXPECT_NEAR(std::sqrt(covariance(5, 5)), 1.0, 0.01);
 }

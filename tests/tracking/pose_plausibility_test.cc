@@ -74,18 +74,21 @@ TEST(PosePlausibility, RemembersContradictionsByDepth) {
 }
 
 // The camera may be where the first implausible pose was predicted.
-TEST(PosePlausibility, DoubtsImplausiblePoses) {
+TEST(PosePlausibility, KeepsTheLargestJump) {
   PosePlausibility plausibility = SlowCamera();
   const Rigid3 jump(ExpSO3({0.0, 0.9, 0.0}), {1.5, 0.0, 0.0}), rest;
-  EXPECT_TRUE(plausibility.UpdateDoubt(1.9, rest, jump).isZero());
+  EXPECT_TRUE(plausibility.UpdateJumpCovariance(1.9, rest, jump).isZero());
   plausibility.MarkImplausible(2.0);
-  EXPECT_TRUE(plausibility.UpdateDoubt(2.0, jump, jump).isApprox(IsotropicCovariance(0.9, 1.5)));
+  EXPECT_TRUE(
+      plausibility.UpdateJumpCovariance(2.0, jump, jump).isApprox(IsotropicCovariance(0.9, 1.5)));
   const Rigid3 turn(ExpSO3({0.0, 0.5, 0.0}), {0.0, 0.0, 0.0});
-  EXPECT_TRUE(plausibility.UpdateDoubt(2.1, turn, rest).isApprox(IsotropicCovariance(0.9, 1.5)));
+  EXPECT_TRUE(
+      plausibility.UpdateJumpCovariance(2.1, turn, rest).isApprox(IsotropicCovariance(0.9, 1.5)));
   plausibility.MarkImplausible(3.0);
   const Rigid3 longer(Eigen::Quaterniond::Identity(), {0.0, 5.0, 0.0});
-  EXPECT_TRUE(plausibility.UpdateDoubt(3.0, rest, longer).isApprox(IsotropicCovariance(0.0, 5.0)));
-  EXPECT_TRUE(plausibility.UpdateDoubt(8.1, rest, rest).isZero());
+  EXPECT_TRUE(
+      plausibility.UpdateJumpCovariance(3.0, rest, longer).isApprox(IsotropicCovariance(0.0, 5.0)));
+  EXPECT_TRUE(plausibility.UpdateJumpCovariance(8.1, rest, rest).isZero());
 }
 
 TEST(PosePlausibility, BelievesSlowMotionsAfterRest) {

@@ -9,7 +9,7 @@ namespace msc_vo {
 
 namespace {
 
-// Not objects of the namespace: others may need them while they are initialised.
+// Local statics: initialisers of static objects in other files may solve windows.
 const ceres::Manifold* PoseManifold() {
   static const Rigid3Manifold manifold;
   return &manifold;

@@ -11,8 +11,6 @@ namespace msc_vo {
 
 namespace {
 
-constexpr int64_t kApplicationId = 0x4d534356;  // "MSCV"
-
 // Without an index or a view of its own: every query is by the id.
 constexpr struct {
   const char* name;

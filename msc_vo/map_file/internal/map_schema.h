@@ -9,6 +9,8 @@
 
 namespace msc_vo {
 
+/// "MSCV" in the header of a map.
+constexpr uint32_t kApplicationId = 0x4d534356;
 /// Version of the tables, docs/map_file.md.
 constexpr int kMapFileVersion = 5;
 /// The first version with the tables of planes.

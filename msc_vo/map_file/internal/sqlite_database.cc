@@ -24,6 +24,9 @@ namespace {
 // Largest text or blob that is read: a hundred times what a keyframe takes.
 constexpr int kMaxBytes = 16 << 20;
 
+// The beginning of a file.
+constexpr std::string_view kMagic("SQLite format 3", 16);
+
 std::string Describe(sqlite3* database, int result) {
   const std::string text = sqlite3_errmsg(database);
   switch (result & 0xff) {
@@ -105,7 +108,6 @@ void RefuseOtherFiles(const std::string& path) {
   const std::string problem = FileProblem(path, std::numeric_limits<std::uintmax_t>::max());
   if (!problem.empty()) throw std::runtime_error(path + ": " + problem);
   constexpr size_t kSmallestPage = 512;
-  constexpr std::string_view kMagic("SQLite format 3", 16);
   std::string header(kSmallestPage, '\0');
   std::ifstream file(path, std::ios::binary);
   if (!file) throw std::runtime_error(path + ": cannot be read (check its permissions)");
@@ -199,6 +201,19 @@ void RefuseDamaged(const std::string& path, const std::string& problem) {
   const std::string journal = JournalOf(std::filesystem::path(path).filename().string());
   throw std::runtime_error(path + ": is damaged (" + problem + "); restore a copy, without " +
                            journal + " of before, or record the map again");
+}
+
+std::optional<uint32_t> ApplicationIdOf(const std::string& path) {
+  constexpr size_t kOffset = 68, kSize = 4;  // https://www.sqlite.org/fileformat.html
+  std::error_code error;                     // a pipe would wait for its writer
+  if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;
+  const std::string header = ReadBeginning(path, kOffset + kSize);
+  if (header.size() < kOffset + kSize || header.compare(0, kMagic.size(), kMagic) != 0) {
+    return std::nullopt;
+  }
+  uint32_t id = 0;
+  for (size_t i = 0; i < kSize; ++i) id = id << 8 | static_cast<uint8_t>(header[kOffset + i]);
+  return id;
 }
 
 void SqliteDatabase::Close::operator()(sqlite3* database) const { sqlite3_close(database); }

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -15,6 +16,9 @@ namespace msc_vo {
 
 /// Throws std::runtime_error that names a file which is damaged, the problem and the fix.
 [[noreturn]] void RefuseDamaged(const std::string& path, const std::string& problem);
+
+/// The application id in the header of a regular file of SQLite; std::nullopt if it is none.
+std::optional<uint32_t> ApplicationIdOf(const std::string& path);
 
 /// A statement of SQL that is executed once or several times. Columns and parameters count from 0.
 /// All functions throw as SqliteDatabase does. The database must outlive it.
