@@ -65,7 +65,7 @@ void AddSquares(const LineError& error, double* sum, int* count) {
   *count += error.num_matched;
 }
 
-TEST(Odometry, HalvesTheDirectionErrorsOfLinesByStructure) {
+TEST(LineAccuracyTest, StructureHalvesTheErrorsOfDirections) {
   double naive_sum = 0.0, structured_sum = 0.0;
   int naive_count = 0, structured_count = 0;
   for (const SceneKind scene : {SceneKind::kBare, SceneKind::kCorridor}) {
