@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 
 #include "msc_vo/map/path_covariance.h"
 
@@ -124,6 +125,25 @@ KeyframeId Representative(const Map& map, KeyframeId id) {
   return is_near ? entry->first : kNoId;
 }
 
+// A loop between keyframes of the map, with the relative pose after later bundle adjustment;
+// std::nullopt if it is of another map, or links a keyframe to itself.
+std::optional<PoseGraphEdge> Represent(const Map& map, const PoseGraphEdge& loop) {
+  const KeyframeId from = Representative(map, loop.from), to = Representative(map, loop.to);
+  if (from == kNoId || to == kNoId || from == to) return std::nullopt;
+  const auto drift = [&map](KeyframeId a, KeyframeId b) {
+    return DriftBetween(map, a, b).StepsAt(Rigid3());
+  };
+  PoseCovariance camera = CameraCovariance(loop.to_from_from, loop.covariance);
+  if (from != loop.from) {
+    camera += TransportCovariance(RelativePose(map, loop.from, loop.to), drift(from, loop.from));
+  }
+  if (to != loop.to) {
+    camera = TransportCovariance(RelativePose(map, loop.to, to), camera) + drift(loop.to, to);
+  }
+  const Rigid3 to_from_from = RelativePose(map, from, to);
+  return PoseGraphEdge{from, to, to_from_from, CovarianceOfCamera(to_from_from, camera)};
+}
+
 }  // namespace
 
 PoseCovariance CommonViewCovariance() { return IsotropicCovariance(kRotationSigma, kSigma); }
@@ -134,15 +154,20 @@ PoseGraph MakeKeyframeGraph(const Map& map, const std::vector<PoseGraphEdge>& lo
   for (const auto& [id, keyframe] : map.keyframes()) graph.poses[id] = keyframe.cam_from_world;
   graph.edges = KeyframeLinks(map, systematic).Edges();
   for (const PoseGraphEdge& loop : loops) {
-    const KeyframeId from = Representative(map, loop.from), to = Representative(map, loop.to);
-    if (from == kNoId || to == kNoId || from == to) continue;
-    // With the relative pose after later bundle adjustment.
-    const Rigid3 to_from_from = RelativePose(map, from, to);
-    graph.edges.push_back(
-        {from, to, to_from_from,
-         CovarianceOfCamera(to_from_from, CameraCovariance(loop.to_from_from, loop.covariance))});
+    if (const auto edge = Represent(map, loop)) graph.edges.push_back(*edge);
   }
   return graph;
+}
+
+std::vector<PoseGraphEdge> LoopsBetweenKeyframes(const std::vector<SavedSubMap>& submaps,
+                                                 const std::vector<PoseGraphEdge>& loops) {
+  std::vector<PoseGraphEdge> edges;
+  for (const PoseGraphEdge& loop : loops) {
+    for (const SavedSubMap& submap : submaps) {
+      if (const auto edge = Represent(submap.map, loop)) edges.push_back(*edge);
+    }
+  }
+  return edges;
 }
 
 }  // namespace msc_vo

@@ -7,6 +7,7 @@
 
 #include "msc_vo/geometry/pose_covariance.h"
 #include "msc_vo/map/map.h"
+#include "msc_vo/map/map_contents.h"
 #include "msc_vo/pose_estimation/pose_graph.h"
 
 namespace msc_vo {
@@ -24,7 +25,7 @@ struct SystematicDrift {
 
 /// The keyframes of a map as a pose graph: the steps of odometry, pairs of keyframes that share
 /// landmarks, and `loops`, whose keyframes are represented by those before them if they were
-/// culled.
+/// culled: the edge then has the drift between both, too.
 ///
 /// `systematic`: zero for a camera that is calibrated well, whose edges have independent errors.
 /// Otherwise the graph drifts as a path with systematic errors does. Such an error is common to all
@@ -34,5 +35,10 @@ struct SystematicDrift {
 /// the drift of each is multiplied by the number of them.
 PoseGraph MakeKeyframeGraph(const Map& map, const std::vector<PoseGraphEdge>& loops,
                             const SystematicDrift& systematic);
+
+/// `loops` between keyframes that are in `submaps`, as MakeKeyframeGraph() represents them: what a
+/// map file keeps of them.
+std::vector<PoseGraphEdge> LoopsBetweenKeyframes(const std::vector<SavedSubMap>& submaps,
+                                                 const std::vector<PoseGraphEdge>& loops);
 
 }  // namespace msc_vo

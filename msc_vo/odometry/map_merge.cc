@@ -12,6 +12,7 @@
 #include "msc_vo/map/map_renumbering.h"
 #include "msc_vo/mapping/atlas.h"
 #include "msc_vo/mapping/culling.h"
+#include "msc_vo/mapping/keyframe_graph.h"
 #include "msc_vo/mapping/landmark_fusion.h"
 #include "msc_vo/mapping/loop_closer.h"
 #include "msc_vo/mapping/plane_map.h"
@@ -64,7 +65,7 @@ class MapMerger {
   MapMerge Result() {
     MapMerge result;
     result.contents.submaps = atlas_.ShareSubMaps();
-    result.contents.loops = loops_.edges();
+    result.contents.loops = LoopsBetweenKeyframes(result.contents.submaps, loops_.edges());
     result.joins = joins_;
     result.num_loops = loops_.num_closed();
     return result;

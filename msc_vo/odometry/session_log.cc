@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "msc_vo/mapping/keyframe_graph.h"
+
 namespace msc_vo {
 
 void SessionLog::BeginWith(MapContents earlier, const PinholeCamera& camera, Tracker* tracker,
@@ -24,7 +26,7 @@ MapContents SessionLog::Share(const std::string& session, Mapper* mapper) const 
   contents.sessions = earlier_;
   contents.sessions.push_back({first_keyframe_, session});
   contents.submaps = mapper->ShareSubMaps();
-  contents.loops = mapper->loop_edges();
+  contents.loops = LoopsBetweenKeyframes(contents.submaps, mapper->loop_edges());
   return contents;
 }
 

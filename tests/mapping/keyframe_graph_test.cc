@@ -132,18 +132,44 @@ TEST_P(KeyframeGraphTest, HasAnEdgePerStepAndPerPairThatSharesLandmarks) {
 INSTANTIATE_TEST_SUITE_P(ByObserversOfALandmark, KeyframeGraphTest, testing::Values(1, 2, 6),
                          testing::PrintToStringParamName());
 
-// The keyframe of a loop that was culled is represented by the one before it.
-TEST(KeyframeGraphLoopTest, AttachesALoopToTheKeyframeBeforeACulledOne) {
-  Map map = StraightPath(2);
-  const PoseCovariance covariance = 1e-6 * PoseCovariance::Identity();
-  const Rigid3 to_from_from = map.CamFromWorld(50) * map.CamFromWorld(10).Inverse();
-  map.RemoveKeyframe(50, 49);
-  const PoseGraph graph = MakeKeyframeGraph(map, {{10, 50, to_from_from, covariance}}, {});
-  EXPECT_EQ(graph.edges.back().from, 10);
-  EXPECT_EQ(graph.edges.back().to, 49);
-  const Rigid3 expected = map.CamFromWorld(49) * map.CamFromWorld(10).Inverse();
-  EXPECT_TRUE(
-      graph.edges.back().to_from_from.translation().isApprox(expected.translation(), 1e-12));
+// A loop whose later keyframe was culled.
+class CulledLoopTest : public testing::Test {
+ protected:
+  CulledLoopTest() {
+    loop_ = {10, 50, map_.CamFromWorld(50) * map_.CamFromWorld(10).Inverse(),
+             1e-6 * PoseCovariance::Identity()};
+    map_.RemoveKeyframe(50, 49);
+  }
+
+  void ExpectBetweenKeyframes(const PoseGraphEdge& edge) const {
+    EXPECT_EQ(edge.from, 10);
+    EXPECT_EQ(edge.to, 49);
+    const Rigid3 expected = map_.CamFromWorld(49) * map_.CamFromWorld(10).Inverse();
+    EXPECT_TRUE(edge.to_from_from.translation().isApprox(expected.translation(), 1e-12));
+    // Along x, the path between both keyframes has no lever arm.
+    const double step = DriftBetween(map_, 50, 49).StepsAt(Rigid3())(kAlong, kAlong);
+    EXPECT_GT(step, 0.0);
+    EXPECT_NEAR(edge.covariance(kAlong, kAlong), 1e-6 + step, 1e-12);
+  }
+
+  Map map_ = StraightPath(2);
+  PoseGraphEdge loop_;
+};
+
+TEST_F(CulledLoopTest, IsAttachedToTheKeyframeBefore) {
+  ExpectBetweenKeyframes(MakeKeyframeGraph(map_, {loop_}, {}).edges.back());
+}
+
+TEST_F(CulledLoopTest, IsKeptBetweenKeyframesOfTheSavedMap) {
+  std::vector<SavedSubMap> submaps(2);  // the first one is empty
+  submaps[1].map = map_.Share();
+  const PoseGraphEdge within = {48, 50, Rigid3(), PoseCovariance::Identity()};
+  const PoseGraphEdge of_one = {49, 50, Rigid3(), PoseCovariance::Identity()};
+  const std::vector<PoseGraphEdge> loops =
+      LoopsBetweenKeyframes(submaps, {of_one, loop_, within, {10, 99, Rigid3(), {}}});
+  ASSERT_EQ(loops.size(), 2u);
+  ExpectBetweenKeyframes(loops[0]);
+  EXPECT_EQ(loops[1].from, 48);
 }
 
 }  // namespace
