@@ -96,6 +96,12 @@ int SegmentLog::WorldOf(int segment) const {
   return segment;
 }
 
+Rigid3 SegmentLog::OriginOf(const std::vector<Move>& moves) {
+  Rigid3 origin_from_world;
+  for (const Move& move : moves) origin_from_world = origin_from_world * move.join.moved_from_kept;
+  return origin_from_world;
+}
+
 SegmentJoin SegmentLog::JoinOf(const std::vector<Move>& moves, Rigid3 cam_from_world) const {
   auto first = std::find_if(moves.begin(), moves.end(), [this](const Move& move) {
     return move.join.kept < static_cast<SubMapId>(num_earlier_);
@@ -121,8 +127,10 @@ std::vector<Segment> SegmentLog::Segments(const std::vector<FrameResult>& frames
       segment.num_estimated += IsEstimated(frames[frame].status) ? 1 : 0;
     }
     segment.world = WorldOf(static_cast<int>(i));
-    if (!entry.moves.empty() && !segment.is_earlier_session) {
-      segment.join = JoinOf(entry.moves, frames[entry.first_frame].cam_from_world);
+    if (!entry.moves.empty()) {
+      segment.join = JoinOf(entry.moves, segment.is_earlier_session
+                                             ? OriginOf(entry.moves)
+                                             : frames[entry.first_frame].cam_from_world);
     }
     segments.push_back(segment);
   }

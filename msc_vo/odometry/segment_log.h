@@ -14,10 +14,12 @@ namespace msc_vo {
 /// How the map of a segment came into the world of an older one: by its first join with a map of
 /// earlier sessions, without one by its last join.
 struct SegmentJoin {
-  int frame = 0;                   ///< index of the keyframe that completed the join
-  int num_keyframes = 0;           ///< that agree on the alignment of the two maps
-  double rotation_sigma = 0.0;     ///< radians, of the alignment; the largest of three
-  double translation_sigma = 0.0;  ///< metres, of the alignment at the segment's first frame
+  int frame = 0;                ///< index of the keyframe that completed the join
+  int num_keyframes = 0;        ///< that agree on the alignment of the two maps
+  double rotation_sigma = 0.0;  ///< radians, of the alignment; the largest of three
+  /// Metres, of the alignment at the segment's first frame; at the origin of a map of earlier
+  /// sessions.
+  double translation_sigma = 0.0;
 };
 
 /// A part of a run that was tracked in a map of its own. A new segment begins when the map of the
@@ -95,6 +97,8 @@ class SegmentLog {
     std::vector<Move> moves;            // in order of time
   };
 
+  // The pose of the origin of a moved world, in the one that it was moved into.
+  static Rigid3 OriginOf(const std::vector<Move>& moves);
   // Of a segment that was moved, and whose first frame has this pose now.
   SegmentJoin JoinOf(const std::vector<Move>& moves, Rigid3 cam_from_world) const;
   bool has_begun() const { return entries_.size() > num_earlier_; }

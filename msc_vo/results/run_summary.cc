@@ -179,8 +179,12 @@ std::string DescribeSegments(const RunSummary& summary) {
   int num_segments = 0;
   int num_joined = 0;
   int num_in_map = 0;
+  int num_earlier_joined = 0;
   for (const Segment& segment : summary.segments) {
-    if (segment.is_earlier_session) continue;
+    if (segment.is_earlier_session) {
+      num_earlier_joined += segment.join ? 1 : 0;
+      continue;
+    }
     ++num_segments;
     num_joined += segment.join ? 1 : 0;
     num_in_map += segment.world == summary.map_world ? 1 : 0;
@@ -190,6 +194,10 @@ std::string DescribeSegments(const RunSummary& summary) {
   if (num_in_map < num_segments) {
     text += FormatText("; %d not in the map, the transform to them is unknown",
                        num_segments - num_in_map);
+  }
+  if (num_earlier_joined > 0) {
+    text += FormatText("; %d of the maps of earlier sessions joined with another one",
+                       num_earlier_joined);
   }
   return text;
 }

@@ -42,7 +42,7 @@ MapJoin Join(SubMapId kept, SubMapId moved, double length) {
 }
 
 // Map 1 of earlier sessions is found at frame 2, and with it map 0 at frame 4. Without earlier
-// sessions these are segments of the run.
+// sessions these are segments of the run. Map 1 has a join of its own.
 TEST(SegmentLog, ASegmentIsFoundWhereItEntersAWorldOfEarlierSessions) {
   for (const int num_earlier : {0, 2}) {
     SegmentLog log;
@@ -61,6 +61,10 @@ TEST(SegmentLog, ASegmentIsFoundWhereItEntersAWorldOfEarlierSessions) {
     EXPECT_EQ(segments[2].join->frame, num_earlier > 0 ? 3 : 4);
     // The lever arm of the alignment is the distance from the origin of the moved world.
     EXPECT_NEAR(segments[2].join->rotation_sigma, num_earlier > 0 ? 0.01 : 0.1, 1e-9);
+    ASSERT_TRUE(segments[1].join);
+    EXPECT_EQ(segments[1].join->frame, 4);
+    EXPECT_NEAR(segments[1].join->rotation_sigma, 0.1, 1e-9);
+    EXPECT_FALSE(segments[0].join);
   }
 }
 
