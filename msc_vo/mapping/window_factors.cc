@@ -25,6 +25,7 @@ class KeyframeGroups {
       Link(BlockId::Pose(o.keyframe), BlockId::Line(o.line));
     }
     for (const CustomFactor& factor : window.custom_factors) LinkAll(factor.blocks);
+    for (const CustomFactor& factor : window.custom_factors) MarkGroup(factor.blocks);
   }
 
   // The keyframe or landmark that stands for the group of a keyframe, by its index in the window.
@@ -35,6 +36,7 @@ class KeyframeGroups {
     }
     return node;
   }
+  bool HasFactor(size_t node) { return with_factor_.count(RootOf(node)) > 0; }
 
  private:
   static bool IsLinking(const BlockId& block) {
@@ -55,9 +57,15 @@ class KeyframeGroups {
       first = block;
     }
   }
+  // Notes that a factor belongs to the group of its blocks.
+  void MarkGroup(const std::vector<BlockId>& blocks) {
+    const auto block = std::find_if(blocks.begin(), blocks.end(), IsLinking);
+    if (block != blocks.end()) with_factor_.insert(RootOf(NodeOf(*block)));
+  }
 
   std::map<std::pair<BlockKind, int64_t>, size_t> nodes_;
   std::vector<size_t> parent_;
+  std::set<size_t> with_factor_;  // roots
 };
 
 template <typename Landmark>
@@ -94,15 +102,23 @@ WindowContext MakeWindowContext(const Map& map, const WindowData& window,
   return context;
 }
 
-void FixUnlinkedKeyframes(WindowData* window) {
+void HoldUnlinkedKeyframes(const Map& map, WindowData* window) {
   KeyframeGroups groups(*window);  // its first nodes are the keyframes of the window
-  std::set<size_t> with_fixed;
+  std::set<size_t> held;
   for (size_t i = 0; i < window->keyframes.size(); ++i) {
-    if (window->keyframes[i].fixed) with_fixed.insert(groups.RootOf(i));
+    if (window->keyframes[i].fixed) held.insert(groups.RootOf(i));
   }
   // Free keyframes are in the order of their ids, which is that of time.
   for (size_t i = 0; i < window->keyframes.size(); ++i) {
-    if (with_fixed.insert(groups.RootOf(i)).second) window->keyframes[i].fixed = true;
+    if (!held.insert(groups.RootOf(i)).second) continue;
+    WindowData::Keyframe& keyframe = window->keyframes[i];
+    const PoseCovariance& step = *map.StepCovariance(keyframe.id);
+    if (!groups.HasFactor(i) || step.isZero()) {
+      keyframe.fixed = true;
+      continue;
+    }
+    window->pose_priors.push_back(
+        {keyframe.id, keyframe.cam_from_world, CovarianceOfCamera(keyframe.cam_from_world, step)});
   }
 }
 

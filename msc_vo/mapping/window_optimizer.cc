@@ -72,8 +72,8 @@ std::unique_ptr<WindowTask> WindowOptimizer::Begin(const BundleAdjustmentOptions
   pairs_.Learn(pairs);
   pairs_.Add(pairs, &window);
   if (factor_callback_) AddCustomFactors(*submap, &window);
-  if (use_planes) submap->planes.AddTo(submap->map, &window);
-  if (factor_callback_ || !window.custom_factors.empty()) FixUnlinkedKeyframes(&window);
+  HoldUnlinkedKeyframes(submap->map, &window);
+  if (use_planes) submap->planes.AddTo(submap->map, &window);  // links nothing
   if (observer_) observer_(keyframe, options, window);
   return std::unique_ptr<WindowTask>(new WindowTask(options, std::move(window)));
 }

@@ -13,6 +13,7 @@
 #include <gmock/gmock.h>
 
 #include "msc_vo/factors/cost_functor.h"
+#include "msc_vo/factors/pose_prior.h"
 
 namespace msc_vo {
 namespace {
@@ -296,6 +297,29 @@ TEST_F(GapTest, FactorsLinkKeyframesThatShareNoLandmarks) {
   EXPECT_LT(ErrorOf(mapper_.map(), 6), 0.015);
 }
 
+// After the gap, a marker says where the keyframes are; nothing links them to those before it.
+TEST_F(GapTest, AbsoluteFactorsMoveKeyframesThatAreNotLinked) {
+  mapper_.SetWindowFactors([](const WindowContext& context) {
+    WindowFactors custom;
+    for (const WindowContext::Keyframe& keyframe : context.keyframes) {
+      if (keyframe.id < 5) continue;
+      custom.factors.push_back(
+          {"marker",
+           PosePrior::CreateShared(Truth(keyframe.timestamp), DiagonalPoseCovariance(0.001, 0.001)),
+           nullptr,
+           {BlockId::Pose(keyframe.id)}});
+    }
+    return custom;
+  });
+  for (int index = 0; index <= 40; index += 10) Process(index);
+  KeyframePacket packet = Packet(&other_world_, 80, &random_);
+  packet.cam_from_reference =
+      Rigid3(Eigen::Quaterniond::Identity(), {0.05, 0.02, 0.0}) * Truth(80 / 30.0);
+  packet.covariance = IsotropicCovariance(0.02, 0.03);
+  mapper_.Process(packet);
+  EXPECT_LT(ErrorOf(mapper_.map(), 5), 0.002);  // 54 mm before
+}
+
 TEST_F(GapTest, HoldsTheGaugeWithoutALink) {
   bool is_newest_fixed = false;
   mapper_.SetWindowFactors([](const WindowContext&) { return WindowFactors(); });
@@ -322,7 +346,23 @@ std::vector<int64_t> FixedKeyframes(const WindowData& window) {
   return fixed;
 }
 
-TEST(FixUnlinkedKeyframes, FixesTheOldestOfEveryGroup) {
+std::vector<int64_t> KeyframesWithPrior(const WindowData& window) {
+  std::vector<int64_t> with_prior;
+  for (const auto& prior : window.pose_priors) with_prior.push_back(prior.keyframe);
+  return with_prior;
+}
+
+// The steps of all keyframes are known, except that of keyframe 4.
+Map MapWithSteps(int num_keyframes) {
+  Map map;
+  for (int id = 0; id < num_keyframes; ++id) {
+    map.AddKeyframe(std::make_shared<Frame>(), Rigid3());
+    if (id != 4) map.SetStepCovariance(id, IsotropicCovariance(0.01, 0.02));
+  }
+  return map;
+}
+
+TEST(HoldUnlinkedKeyframes, HoldsTheOldestOfEveryGroup) {
   WindowData window;
   for (int id = 0; id < 8; ++id) window.keyframes.push_back({10 + id, Rigid3(), id == 1});
   const auto observe_point = [&](int64_t keyframe, int64_t point) {
@@ -343,12 +383,14 @@ TEST(FixUnlinkedKeyframes, FixesTheOldestOfEveryGroup) {
       {"a", nullptr, nullptr, {BlockId::Pose(16), BlockId::Extra(0), BlockId::Pose(10)}},
       {"b", nullptr, nullptr, {BlockId::Extra(0), BlockId::Pose(15)}},
       {"c", nullptr, nullptr, {BlockId::Pose(14)}}};
-  FixUnlinkedKeyframes(&window);
-  EXPECT_THAT(FixedKeyframes(window), ElementsAre(11, 13, 14, 17));
+  HoldUnlinkedKeyframes(MapWithSteps(18), &window);
+  EXPECT_THAT(FixedKeyframes(window), ElementsAre(11, 17));
+  EXPECT_THAT(KeyframesWithPrior(window), ElementsAre(13, 14));
+  EXPECT_DOUBLE_EQ(window.pose_priors[0].covariance(0, 0), 0.01 * 0.01);
 }
 
 // A factor links keyframes through the landmarks that it is about as well.
-TEST(FixUnlinkedKeyframes, FollowsFactorsOnLandmarks) {
+TEST(HoldUnlinkedKeyframes, FollowsFactorsOnLandmarks) {
   WindowData window;
   for (int id = 0; id < 8; ++id) window.keyframes.push_back({id, Rigid3(), id == 0});
   const auto observe = [&](int64_t keyframe, int64_t point) {
@@ -366,8 +408,9 @@ TEST(FixUnlinkedKeyframes, FollowsFactorsOnLandmarks) {
       {"plane", nullptr, nullptr, {BlockId::Point(103), BlockId::Extra(0)}},
       {"plane", nullptr, nullptr, {BlockId::Point(104), BlockId::Extra(0)}},
       {"line", nullptr, nullptr, {BlockId::Line(102), BlockId::Axes(), BlockId::Pose(5)}}};
-  FixUnlinkedKeyframes(&window);
-  EXPECT_THAT(FixedKeyframes(window), ElementsAre(0, 3, 4, 5, 7));
+  HoldUnlinkedKeyframes(MapWithSteps(8), &window);
+  EXPECT_THAT(FixedKeyframes(window), ElementsAre(0, 4, 7));
+  EXPECT_THAT(KeyframesWithPrior(window), ElementsAre(3, 5));
 }
 
 }  // namespace
