@@ -81,7 +81,8 @@ struct FrameResult {
   Rigid3 cam_from_world;
   /// The pose by integration of the motion between images, which never jumps, but drifts: neither
   /// another world nor a correction of the map changes it. Motion that no image shows is missing:
-  /// after a gap, it continues from the pose before. Identity at the first tracked frame.
+  /// after a gap, it continues from the pose before. Pose factors are part of the motion: one that
+  /// measures the place in the world makes it jump, too. Identity at the first tracked frame.
   Rigid3 cam_from_odometry;
   bool by_pose_factors = false;  ///< predicted by pose factors, not by constant velocity
   bool is_keyframe = false;
