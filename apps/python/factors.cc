@@ -7,7 +7,6 @@
 #include <utility>
 
 #include <ceres/loss_function.h>
-#include <ceres/sphere_manifold.h>
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
@@ -19,6 +18,7 @@
 #include "msc_vo/factors/gravity_direction.h"
 #include "msc_vo/factors/pose_prior.h"
 #include "msc_vo/factors/relative_pose.h"
+#include "msc_vo/factors/unit_vector_manifold.h"
 
 namespace msc_vo {
 
@@ -173,7 +173,8 @@ void BindBlocks(py::module_* module) {
   py::class_<ExtraBlock>(*module, "ExtraBlock", "A parameter block of your own.")
       .def(py::init(&MakeExtraBlock), py::arg("id"), py::arg("value"),
            py::arg("manifold") = "euclidean", py::arg("fixed") = false,
-           "manifold: 'euclidean', or 'sphere' for unit vectors.")
+           "manifold: 'euclidean', or 'sphere' for unit vectors of three numbers: ValueError on "
+           "others. Covariances of a 'sphere' are 2x2, in radians^2.")
       .def_readonly("id", &ExtraBlock::id, "Id for BlockId.extra().")
       .def_property_readonly(
           "value", [](const ExtraBlock& self) { return self.value; }, "The initial value.")
@@ -190,7 +191,11 @@ ExtraBlock MakeExtraBlock(int64_t id, const py::object& value, const std::string
     if (block.value.size() != 3) {
       throw std::invalid_argument("value: manifold 'sphere' is for unit vectors of three numbers");
     }
-    block.manifold = std::make_shared<ceres::SphereManifold<3>>();
+    if (const char* error = UnitVectorError(block.value)) {
+      throw std::invalid_argument(std::string("value: ") + error +
+                                  ", as manifold 'sphere' needs: divide it by its length");
+    }
+    block.manifold = std::make_shared<UnitVectorManifold>();
   } else if (manifold != "euclidean") {
     throw std::invalid_argument("manifold: must be 'euclidean' or 'sphere', not '" + manifold +
                                 "'");

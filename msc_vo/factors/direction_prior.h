@@ -14,7 +14,7 @@ namespace msc_vo {
 ///
 ///   r = 2 (e_1 . d, e_2 . d) / (1 + m . d) / sigma
 ///
-/// d: unit vector (block 0, 3, with ceres::SphereManifold<3>). m: mean of the prior. e_1, e_2: unit
+/// d: unit vector (block 0, 3, with UnitVectorManifold). m: mean of the prior. e_1, e_2: unit
 /// vectors that complete m to an orthonormal basis. sigma: radians, of each component of the angle.
 /// With the angle a between d and m, |r| sigma = 2 tan(a / 2), which grows up to 180 degrees, where
 /// the factor is undefined and returns false.

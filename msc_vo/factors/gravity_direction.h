@@ -16,7 +16,7 @@ namespace msc_vo {
 ///   r = 2 (e_1 . x, e_2 . x) / (1 + m . x) / sigma,   x = R d
 ///
 /// R: rotation of cam_from_world (block 0, 7). d: vertical, a unit vector in the world (block 1, 3,
-/// with ceres::SphereManifold<3>). m: measured direction in the camera. m and d must both point up
+/// with UnitVectorManifold). m: measured direction in the camera. m and d must both point up
 /// (as the reading of an accelerometer at rest) or both down. The other symbols are those of
 /// DirectionPrior, of which this is one on x. The residual does not depend on position and heading.
 class GravityDirection : public CostFunctor<GravityDirection, 2, 7, 3> {

@@ -4,11 +4,13 @@
 #pragma once
 
 #include <ceres/product_manifold.h>
-#include <ceres/sphere_manifold.h>
+
+#include "msc_vo/factors/unit_vector_manifold.h"
 
 namespace msc_vo {
 
-/// Manifold of the parameters of a Plane: a unit normal and an offset, three dimensions.
-using PlaneManifold = ceres::ProductManifold<ceres::SphereManifold<3>, ceres::EuclideanManifold<1>>;
+/// Manifold of the parameters of a Plane: a unit normal and an offset. Its tangent are the angles
+/// of UnitVectorManifold (radians), then the offset (metres).
+using PlaneManifold = ceres::ProductManifold<UnitVectorManifold, ceres::EuclideanManifold<1>>;
 
 }  // namespace msc_vo

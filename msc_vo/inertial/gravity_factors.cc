@@ -10,11 +10,11 @@
 #include <utility>
 
 #include <ceres/loss_function.h>
-#include <ceres/sphere_manifold.h>
 
 #include "msc_vo/factors/chi_square.h"
 #include "msc_vo/factors/direction_prior.h"
 #include "msc_vo/factors/gravity_direction.h"
+#include "msc_vo/factors/unit_vector_manifold.h"
 #include "msc_vo/inertial/vertical_measurement.h"
 
 namespace msc_vo {
@@ -94,7 +94,7 @@ WindowFactors GravityFactors::operator()(const WindowContext& window) {
        nullptr,
        {vertical}});
   result.extra_blocks.push_back(
-      {vertical.id, mean.sum.normalized(), std::make_shared<ceres::SphereManifold<3>>()});
+      {vertical.id, mean.sum.normalized(), std::make_shared<UnitVectorManifold>()});
   return result;
 }
 

@@ -14,9 +14,9 @@
 #include "tests/support/test_window.h"
 #include <ceres/loss_function.h>
 #include <ceres/numeric_diff_cost_function.h>
-#include <ceres/sphere_manifold.h>
 
 #include "msc_vo/bundle_adjustment/window_covariance.h"
+#include "msc_vo/factors/unit_vector_manifold.h"
 
 namespace msc_vo {
 namespace {
@@ -157,7 +157,7 @@ class CustomFactorTest : public ::testing::TestWithParam<BundleAdjustmentSolver>
     data_.axes->fixed = false;
     data_.axes->world_from_axes = Eigen::Quaterniond(ExpSO3({0.03, -0.02, 0.01}));
     data_.extra_blocks.push_back({9, Eigen::Vector3d(1.0, 0.05, 0.02).normalized(),
-                                  std::make_shared<ceres::SphereManifold<3>>(), false});
+                                  std::make_shared<UnitVectorManifold>(), false});
     data_.custom_factors.push_back(MakeCustomFactor<6, 6, 4, 3>(
         "axis", LineAlongAxis{0.01}, {BlockId::Line(Line(3)), BlockId::Axes(), BlockId::Extra(9)}));
     data_.custom_factors.push_back(

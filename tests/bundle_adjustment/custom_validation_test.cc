@@ -10,10 +10,10 @@
 #include "tests/support/custom_factors.h"
 #include "tests/support/message_matchers.h"
 #include "tests/support/test_window.h"
-#include <ceres/sphere_manifold.h>
 #include <gmock/gmock.h>
 
 #include "msc_vo/bundle_adjustment/local_bundle_adjustment.h"
+#include "msc_vo/factors/plane_manifold.h"
 
 namespace msc_vo {
 namespace {
@@ -125,9 +125,16 @@ TEST_F(CustomValidationTest, NamesTheExtraBlock) {
   EXPECT_THAT(error_of({6, Eigen::VectorXd(), {}, false}), Names("extra block", "6", "no value"));
   EXPECT_THAT(error_of({6, Eigen::VectorXd::Constant(1, INFINITY), {}, false}),
               Names("extra block", "6", "finite"));
-  EXPECT_THAT(
-      error_of({6, Eigen::VectorXd::Zero(2), std::make_shared<ceres::SphereManifold<3>>(), false}),
-      Names("extra block", "6", "2", "manifold", "3"));
+  const auto direction = std::make_shared<UnitVectorManifold>();
+  const auto plane = std::make_shared<PlaneManifold>();
+  EXPECT_THAT(error_of({6, Eigen::VectorXd::Zero(2), direction, false}),
+              Names("extra block", "6", "2", "manifold", "3"));
+  EXPECT_EQ(error_of({6, Eigen::Vector3d(0.0, 0.6, 0.8), direction}), "");
+  EXPECT_THAT(error_of({6, Eigen::Vector3d(0.0, 0.0, 9.81), direction}),
+              Names("extra block", "6", "unit vector"));
+  EXPECT_EQ(error_of({6, Eigen::Vector4d(0.0, 0.6, 0.8, 2.0), plane}), "");
+  EXPECT_THAT(error_of({6, Eigen::Vector4d(0.0, 0.0, 2.0, 2.0), plane}),
+              Names("extra block", "6", "unit vector"));
 }
 
 TEST_F(CustomValidationTest, RejectsAxesThatAreNoRotation) {

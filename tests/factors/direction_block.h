@@ -4,12 +4,13 @@
 #pragma once
 
 #include "tests/support/factor_checks.h"
-#include <ceres/sphere_manifold.h>
+
+#include "msc_vo/factors/unit_vector_manifold.h"
 
 namespace msc_vo {
 
 // Of a unit vector as a parameter block.
-inline const ceres::SphereManifold<3> kSphere;
+inline const UnitVectorManifold kUnitVectorManifold;
 
 inline Eigen::Vector3d AnyDirection(RandomGeometry* random) {
   return random->Normal3().normalized();

@@ -35,7 +35,8 @@ TEST(DirectionPrior, DerivativesMatch) {
   for (const double distance : {0.0, 1e-3, 0.5, 2.0}) {
     const Eigen::Vector3d mean = AnyDirection(&random);
     const Eigen::Vector3d direction = ExpSO3(distance * mean.unitOrthogonal()) * mean;
-    ExpectGradientsMatch(*CostPtr(DirectionPrior::Create(mean, 0.1)), {Block(direction)}, &kSphere);
+    ExpectGradientsMatch(*CostPtr(DirectionPrior::Create(mean, 0.1)), {Block(direction)},
+                         &kUnitVectorManifold);
   }
 }
 

@@ -46,7 +46,7 @@ TEST(GravityDirection, DerivativesMatch) {
     const Eigen::Vector3d up = AnyDirection(&random);
     const Eigen::Vector3d measured = ExpSO3(distance * AnyDirection(&random)) * InCamera(pose, up);
     ExpectGradientsMatch(*CostPtr(GravityDirection::Create(measured, 0.1)),
-                         {Block(pose), Block(up)}, &kSphere);
+                         {Block(pose), Block(up)}, &kUnitVectorManifold);
   }
 }
 
@@ -71,7 +71,7 @@ TEST(GravityDirection, RecoversTheVertical) {
   RandomGeometry random(5);
   const Eigen::Vector3d truth = AnyDirection(&random);
   Eigen::Vector3d up = ExpSO3(2.6 * truth.unitOrthogonal()) * truth;
-  ceres::SphereManifold<3> manifold;
+  UnitVectorManifold manifold;
   ceres::Problem::Options options;
   options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ceres::Problem problem(options);

@@ -14,6 +14,7 @@
 
 #include "msc_vo/bundle_adjustment/internal/window_terms.h"
 #include "msc_vo/bundle_adjustment/validation.h"
+#include "msc_vo/factors/plane_manifold.h"
 
 namespace msc_vo {
 
@@ -157,6 +158,12 @@ std::string NameOf(const BlockId& block) {
   return "extra block" + id;
 }
 
+// Whether the first three numbers of a block are a unit vector.
+bool BeginsWithUnitVector(const ceres::Manifold* manifold) {
+  return dynamic_cast<const UnitVectorManifold*>(manifold) != nullptr ||
+         dynamic_cast<const PlaneManifold*>(manifold) != nullptr;
+}
+
 void CheckExtraBlocks(const WindowData& data) {
   for (const ExtraBlock& extra : data.extra_blocks) {
     const auto fail = [&extra](const std::string& error) {
@@ -167,6 +174,10 @@ void CheckExtraBlocks(const WindowData& data) {
     if (extra.manifold && extra.manifold->AmbientSize() != extra.value.size()) {
       fail("the value has size " + std::to_string(extra.value.size()) + ", but its manifold has " +
            std::to_string(extra.manifold->AmbientSize()));
+    }
+    if (!BeginsWithUnitVector(extra.manifold.get())) continue;
+    if (const char* error = UnitVectorError(extra.value.head<3>())) {
+      fail(std::string("the value is ") + error + ", as its manifold needs");
     }
   }
   if (!data.axes) return;
