@@ -272,6 +272,35 @@ TEST_F(StructuralTermsTest, FixedLinesConstrainFreeLines) {
   EXPECT_LT(RmsDirection(window_.truth, data_), 0.5 * RmsDirection(window_.truth, without));
 }
 
+TEST_F(StructuralTermsTest, FixedLinesNeedNoObservation) {
+  Make();
+  const auto add_known_line = [this](int64_t id, int axis) {
+    data_.lines.push_back({id, {{0.0, 0.0, 2.0}, Eigen::Vector3d::Unit(axis)}, true});
+    data_.lines.back().segment.end += data_.lines.back().segment.start;
+  };
+  WindowData without = data_;
+  ASSERT_TRUE(LocalBundleAdjustment(options_, &without).usable);
+  const int num_lines = static_cast<int>(data_.lines.size());
+  for (int axis : {0, 1, 2}) add_known_line(9000 + axis, axis);
+  for (int i = 0; i < num_lines; ++i) {
+    data_.parallel_pairs.push_back(Pair(num_lines + i % 3, i));
+    data_.perpendicular_pairs.push_back(Pair(num_lines + (i + 1) % 3, i));
+  }
+  data_.parallel_pairs.push_back(Pair(num_lines, num_lines + 1));  // no free line
+  for (const auto solver : {BundleAdjustmentSolver::kBlockSchur, BundleAdjustmentSolver::kCeres}) {
+    options_.solver = solver;
+    WindowData with = data_;
+    const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_, &with);
+    ASSERT_TRUE(summary.usable);
+    EXPECT_EQ(summary.parallel.num_residual_blocks + summary.parallel.num_rejected, num_lines);
+    EXPECT_EQ(summary.perpendicular.num_residual_blocks + summary.perpendicular.num_rejected,
+              num_lines);
+    EXPECT_EQ(with.lines[num_lines].segment.end, data_.lines[num_lines].segment.end);
+    with.lines.resize(num_lines);
+    EXPECT_LT(RmsDirection(window_.truth, with), 0.5 * RmsDirection(window_.truth, without));
+  }
+}
+
 TEST_F(StructuralTermsTest, IsDeterministic) {
   Make();
   AddTruePairs(6);

@@ -109,7 +109,7 @@ class Linearizer {
     return true;
   }
 
-  // Computes the directions of all observed lines once, as a line is part of many pairs. Returns
+  // Computes the directions of all constrained lines once, as a line is part of many pairs. Returns
   // false if a line has zero length.
   bool ComputeDirections() {
     equations_->directions.resize(structure_.num_lines);

@@ -20,7 +20,7 @@ class WindowTermsBuilder {
       : options_(options), data_(data), index_(index), inlier_mask_(inlier_mask), state_(state) {
     terms_.keyframe_constrained.assign(data.keyframes.size(), false);
     terms_.point_constrained.assign(data.points.size(), false);
-    terms_.line_constrained.assign(data.lines.size(), false);
+    for (const WindowData::Line& line : data.lines) terms_.line_constrained.push_back(line.fixed);
     terms_.extra_constrained.assign(state.NumExtra(), false);
   }
 
@@ -138,7 +138,7 @@ class WindowTermsBuilder {
   static int Multiplicity(const WindowData::AxisAlignment&) { return 1; }
   static int Multiplicity(const WindowData::LinePair& pair) { return pair.count; }
 
-  // Relations of observed lines of which at least one is free.
+  // Relations of observed or fixed lines, at least one of which is free.
   template <typename Factor, typename Record>
   void AddRelations(const RelationTerm<Factor, Record>& term) {
     if (!(options_.*term.options).enabled) return;

@@ -69,7 +69,8 @@ struct WindowTerms {
   /// One per keyframe: whether an observation, a pose prior or a custom factor has a residual
   /// block.
   std::vector<bool> keyframe_constrained;
-  /// One per point or line: whether an observation or a custom factor has a residual block.
+  /// One per point or line: whether an observation or a custom factor has a residual block. Lines
+  /// that are fixed count as constrained.
   std::vector<bool> point_constrained, line_constrained;
   /// One per extra block: whether a custom factor has it.
   std::vector<bool> extra_constrained;
