@@ -89,9 +89,9 @@ MSC_VO_FIELDS_OF(WindowData::Keyframe, id, cam_from_world, fixed)
 MSC_VO_FIELDS_OF(WindowData::Point, id, position, fixed, noise)
 MSC_VO_FIELDS_OF(WindowData::Line, id, segment, fixed, noise, depth_offset)
 MSC_VO_FIELDS_OF(WindowData::PointObservation, keyframe, point, pixel, sigma, inverse_depth,
-                 inverse_depth_sigma, rejected)
+                 inverse_depth_sigma, rejected, depth_rejected)
 MSC_VO_FIELDS_OF(WindowData::LineObservation, keyframe, line, segment, sigma, has_depth, depth,
-                 rejected)
+                 rejected, depth_rejected)
 MSC_VO_FIELDS_OF(WindowData::LinePair, a, b, sigma, count, rejected)
 MSC_VO_FIELDS_OF(WindowData::AxisAlignment, line, axis, sigma, rejected)
 MSC_VO_FIELDS_OF(WindowData::PosePrior, keyframe, cam_from_world, covariance)

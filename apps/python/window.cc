@@ -257,13 +257,22 @@ void BindMeasurements(WindowClass* window) {
           ColumnGetter(&WindowData::point_observations, &WindowData::PointObservation::rejected),
           "Whether the solver took each observation for an outlier.")
       .def_property_readonly(
+          "point_depth_rejected",
+          ColumnGetter(&WindowData::point_observations,
+                       &WindowData::PointObservation::depth_rejected),
+          "Whether the solver took only the depth of each observation for an outlier.")
+      .def_property_readonly(
           "line_observation_rejected",
           ColumnGetter(&WindowData::line_observations, &WindowData::LineObservation::rejected),
-          "The same for the observations of lines.")
+          "point_observation_rejected for the observations of lines.")
+      .def_property_readonly("line_depth_rejected",
+                             ColumnGetter(&WindowData::line_observations,
+                                          &WindowData::LineObservation::depth_rejected),
+                             "point_depth_rejected for the observations of lines.")
       .def_property_readonly(
           "parallel_rejected",
           ColumnGetter(&WindowData::parallel_pairs, &WindowData::LinePair::rejected),
-          "The same for pairs of parallel lines.")
+          "Whether the solver took each pair of parallel lines for an outlier.")
       .def_property_readonly(
           "perpendicular_rejected",
           ColumnGetter(&WindowData::perpendicular_pairs, &WindowData::LinePair::rejected),

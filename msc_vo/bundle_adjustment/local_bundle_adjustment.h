@@ -139,10 +139,10 @@ using WindowStageObserver = std::function<void(WindowStage)>;
 /// - With options.landmark_noise, also estimates the noise of all points and lines, fixed or not.
 /// - A landmark without inlier observations keeps its value, as does a keyframe without inlier
 ///   observations or prior.
-/// - Pairs and alignments are used only between observed lines of which at least one is free;
-///   others are neither counted nor rejected.
-/// - With options.consensus, no observation without a mark is beyond its limit at the result, and
-///   the summary lists what is not determined. A landmark that its views do not determine moves
+/// - Pairs and alignments are used if each of their lines is observed or fixed, and at least one is
+///   observed and free; others are neither counted nor rejected.
+/// - With options.consensus, observations and depths beyond their limits at the result are marked,
+///   and the summary lists what is not determined. A landmark that its views do not determine moves
 ///   only in the directions that they do, unless relations or custom factors couple it.
 /// - The gauge must be fixed by at least one keyframe that is fixed or has a prior, or by custom
 ///   factors. Without depth, the scale requires two of them.
@@ -153,9 +153,10 @@ using WindowStageObserver = std::function<void(WindowStage)>;
 /// Throws std::invalid_argument that names the offending item for: a window without keyframes, an
 /// unknown or repeated id, a number that is not finite or beyond 1e9, a sigma <= 0, a covariance
 /// that is not symmetric positive definite, a segment of zero length, a pair of a line with itself,
-/// a count below 1, an axis that is not a unit vector, a free gauge, or invalid options; and for a
-/// custom factor without cost function, with parameter blocks of the wrong number or size, with a
-/// block twice, or that cannot be evaluated at the initial values.
+/// a count below 1, an axis that is not a unit vector, an extra block on UnitVectorManifold or
+/// PlaneManifold without a unit vector, a free gauge, or invalid options; and for a custom factor
+/// without cost function, with parameter blocks of the wrong number or size, with a block twice, or
+/// that cannot be evaluated at the initial values.
 BundleAdjustmentSummary LocalBundleAdjustment(const BundleAdjustmentOptions& options,
                                               WindowData* data,
                                               const WindowStageObserver& enter_stage = {});

@@ -67,20 +67,25 @@ std::vector<int64_t> Undetermined(const std::vector<int64_t>& ids,
   return undetermined;
 }
 
-// Writes the solution and the rejection marks. Keyframes and landmarks without residual blocks in
-// the second solve keep their initial values.
-void WriteBack(const WindowTerms& terms, const WindowInlierMask& inlier_mask,
-               const WindowState& state, WindowData* data) {
+template <typename Observation>
+void WriteMarks(const std::vector<InlierMask>& first, const std::vector<InlierMask>& last,
+                std::vector<Observation>* observations) {
+  for (size_t i = 0; i < last.size(); ++i) {
+    (*observations)[i].rejected = !last[i].reprojection;
+    (*observations)[i].depth_rejected = last[i].reprojection && first[i].depth && !last[i].depth;
+  }
+}
+
+// Writes the solution and the rejection marks. `first`: mask of the first solve. Keyframes and
+// landmarks without residual blocks in the second solve keep their initial values.
+void WriteBack(const WindowTerms& terms, const WindowInlierMask& first,
+               const WindowInlierMask& inlier_mask, const WindowState& state, WindowData* data) {
   const auto is_constrained = [&terms](const StateBlock& block) {
     return terms.Constrained(block.kind)[block.position];
   };
   WriteState(state, is_constrained, data);
-  for (size_t i = 0; i < inlier_mask.points.size(); ++i) {
-    data->point_observations[i].rejected = !inlier_mask.points[i].reprojection;
-  }
-  for (size_t i = 0; i < inlier_mask.lines.size(); ++i) {
-    data->line_observations[i].rejected = !inlier_mask.lines[i].reprojection;
-  }
+  WriteMarks(first.points, inlier_mask.points, &data->point_observations);
+  WriteMarks(first.lines, inlier_mask.lines, &data->line_observations);
   ForEachRelation([&](const auto& term) {
     auto& records = data->*term.records;
     for (size_t i = 0; i < records.size(); ++i) {
@@ -243,7 +248,7 @@ class StepwiseBundleAdjustment::Solver {
     if (!options_.consensus.enabled) {
       EstimateLandmarkNoise(options_.landmark_noise, index_, inlier_mask_, *state_, &with_noise_);
     }
-    WriteBack(terms_, inlier_mask_, *state_, &with_noise_);
+    WriteBack(terms_, first_inlier_mask_, inlier_mask_, *state_, &with_noise_);
     // A result that a later bundle adjustment would refuse is none.
     summary_.usable = HasValidState(with_noise_, &summary_.message);
     if (summary_.usable && options_.consensus.enabled) ListUndetermined();

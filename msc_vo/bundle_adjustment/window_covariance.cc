@@ -24,26 +24,6 @@ constexpr double kRadius = 1e12;
 // parameters by this factor: the damping then dominates the result.
 constexpr double kMaxInflation = 1e8;
 
-// The inliers of the second solve of LocalBundleAdjustment.
-WindowInlierMask FinalInlierMask(const BundleAdjustmentOptions& options, const WindowData& data,
-                                 const WindowIndex& index, const WindowState& state) {
-  WindowInlierMask inlier_mask = UnrejectedInlierMask(options, index, data);
-  // Observations that lost only their depth have no mark in the data: repeat the test.
-  WindowInlierMask tested = inlier_mask;
-  BundleAdjustmentSummary unused;
-  RejectOutliers(options, MakeWindowTerms(options, data, index, inlier_mask, state), state, &tested,
-                 &unused);
-  const auto drop_depths = [](const std::vector<InlierMask>& test,
-                              std::vector<InlierMask>* inliers) {
-    for (size_t i = 0; i < test.size(); ++i) {
-      if (test[i].reprojection && !test[i].depth) (*inliers)[i].depth = false;
-    }
-  };
-  drop_depths(tested.points, &inlier_mask.points);
-  drop_depths(tested.lines, &inlier_mask.lines);
-  return inlier_mask;
-}
-
 template <typename Item>
 int PositionOf(const std::vector<Item>& items, int64_t id, const char* kind) {
   const auto it =
@@ -123,7 +103,7 @@ WindowCovariance EstimateCovariance(const BundleAdjustmentOptions& options,
       Positions(solved.extra_blocks, selected.extra_blocks, "extra block");
 
   const WindowState state(solved);
-  const WindowInlierMask inlier_mask = FinalInlierMask(options, solved, index, state);
+  const WindowInlierMask inlier_mask = UnrejectedInlierMask(options, index, solved);
   WindowData with_noise_uncertainty = solved;
   AddNoiseUncertainty(options.landmark_noise, index, inlier_mask, state, &with_noise_uncertainty);
   const WindowTerms terms =

@@ -28,15 +28,16 @@ struct WindowCovariance {
   /// Of start, then end; world, metres^2. Along the line it is that of the endpoint prior,
   /// line_endpoint_prior_sigma^2, unless other terms constrain it further.
   std::vector<std::optional<Eigen::Matrix<double, 6, 6>>> lines;
-  /// In the tangent spaces of the manifolds, or of the values without a manifold.
+  /// In the tangent spaces of the manifolds (radians for UnitVectorManifold), or of the values
+  /// without a manifold.
   std::vector<std::optional<Eigen::MatrixXd>> extra_blocks;
 };
 
 /// Computes marginal covariances: blocks of the inverse Gauss-Newton Hessian (J^T J)^-1 at
-/// `solved`, a window after LocalBundleAdjustment. Rejected observations, pairs and alignments, and
-/// depths that fail the chi-square test, are excluded; factors are weighted by the derivative of
-/// their loss. With options.landmark_noise, estimated factors count with their own uncertainty. The
-/// result is relative to the fixed items, which count as exact.
+/// `solved`, a window after LocalBundleAdjustment. Observations, depths, pairs and alignments that
+/// are marked as rejected are excluded; factors are weighted by the derivative of their loss. With
+/// options.landmark_noise, estimated factors count with their own uncertainty. The result is
+/// relative to the fixed items, which count as exact.
 ///
 /// Throws std::invalid_argument for the same input as LocalBundleAdjustment, and for a selected id
 /// that is not in the window.

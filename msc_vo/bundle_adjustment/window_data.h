@@ -56,6 +56,8 @@ struct WindowData {
     double inverse_depth = 0.0;                       ///< 1/metres; 0: not measured.
     double inverse_depth_sigma = 0.0;                 ///< 1/metres.
     bool rejected = false;                            ///< Output: an outlier, or behind the camera.
+    /// Output: the depth is an outlier, and the observation an inlier without it.
+    bool depth_rejected = false;
   };
   struct LineObservation {
     int64_t keyframe = 0;
@@ -63,8 +65,9 @@ struct WindowData {
     LineSegment2 segment;  ///< Undistorted, pixels.
     double sigma = 1.0;    ///< Of an end point's distance to the true image line, pixels.
     bool has_depth = false;
-    LineDepth depth;        ///< Valid if has_depth.
-    bool rejected = false;  ///< Output, as for points.
+    LineDepth depth;              ///< Valid if has_depth.
+    bool rejected = false;        ///< Output, as for points.
+    bool depth_rejected = false;  ///< Output, as for points.
   };
 
   /// Parallel or perpendicular pair of lines (paper: L_par^z, L_perp^z).

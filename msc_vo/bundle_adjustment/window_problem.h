@@ -27,8 +27,9 @@ class WindowState;
 ///   window.WriteBack(&data);
 ///
 /// There is one residual block per factor, with analytic derivatives and the Huber loss of its
-/// term. Observations of landmarks behind the camera, and whatever `data` marks as rejected, are
-/// left out: all measurements of a window that was not solved yet, the inliers of one that was.
+/// term. Observations of landmarks behind the camera are left out, as are the observations, depths,
+/// pairs and alignments that `data` marks as rejected: the problem has all measurements of a window
+/// that was not solved yet, and the inliers of one that was.
 /// Outliers are not searched and no landmark noise is estimated; LocalBundleAdjustment does both.
 class WindowProblem {
  public:

@@ -95,6 +95,7 @@ struct PointObservationRecord {
     fields.Number("INVERSE_DEPTH", observation.inverse_depth);
     fields.Number("INVERSE_DEPTH_SIGMA", observation.inverse_depth_sigma);
     fields.Flag("kept", "rejected", observation.rejected);
+    fields.OptionalFlag("depth_rejected", observation.depth_rejected);
   }
 };
 
@@ -125,6 +126,7 @@ struct LineObservationRecord {
     }
     fields.Integer("INLIERS", observation.depth.num_inliers);
     fields.Number("INLIER_RATIO", observation.depth.inlier_ratio);
+    fields.OptionalFlag("depth_rejected", observation.depth_rejected);
   }
 };
 

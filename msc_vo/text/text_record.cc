@@ -53,6 +53,13 @@ void FieldReader::Flag(const char* if_false, const char* if_true, bool& value) {
   }
 }
 
+void FieldReader::OptionalFlag(const char* if_true, bool& value) {
+  value = next_ < line_.fields.size();
+  if (!value) return;
+  const std::string& field = Next();
+  if (field != if_true) Fail(field, std::string("'") + if_true + "' or left out");
+}
+
 void FieldReader::EndRecord() const {
   if (next_ != line_.fields.size()) FailFieldCount();
 }

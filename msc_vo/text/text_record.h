@@ -30,6 +30,9 @@ class FieldWriter {
   void OptionalNumber(const char* name, double value) { Number(name, value); }
   void Integer(const char* name, int64_t value);
   void Flag(const char* if_false, const char* if_true, bool value);
+  void OptionalFlag(const char* if_true, bool value) {
+    if (value) Flag("", if_true, value);
+  }
   void EndRecord() { *text_ += '\n'; }
 
  private:
@@ -43,6 +46,7 @@ class FieldNames {
   void OptionalNumber(const char* name, double) { Add(std::string("[") + name + "]"); }
   void Integer(const char* name, int64_t) { Add(name); }
   void Flag(const char* if_false, const char* if_true, bool);
+  void OptionalFlag(const char* if_true, bool) { Add(std::string("[") + if_true + "]"); }
 
   const std::string& text() const { return text_; }
 
@@ -65,6 +69,8 @@ class FieldReader {
   void Integer(const char* name, int64_t& value);
   void Integer(const char* name, int& value);
   void Flag(const char* if_false, const char* if_true, bool& value);
+  /// Allowed only at the end of a record. A missing field is false.
+  void OptionalFlag(const char* if_true, bool& value);
   /// Checks that no field is left; to be called after the last field.
   void EndRecord() const;
 

@@ -3,6 +3,7 @@
 
 #include "msc_vo/bundle_adjustment/window_covariance.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "tests/support/ceres_covariance.h"
@@ -10,6 +11,9 @@
 #include "tests/support/message_matchers.h"
 #include "tests/support/test_window.h"
 #include <gmock/gmock.h>
+
+#include "msc_vo/factors/direction_prior.h"
+#include "msc_vo/factors/unit_vector_manifold.h"
 
 namespace msc_vo {
 namespace {
@@ -29,6 +33,9 @@ class WindowCovarianceTest : public ::testing::Test {
     window_ = MakeTestWindow(scene_);
     data_ = window_.data;
     if (with_structure_) AddStructure();
+    for (size_t i = 0; with_wrong_depths_ && i < data_.point_observations.size(); i += 25) {
+      data_.point_observations[i].inverse_depth *= 0.7;
+    }
     ASSERT_TRUE(LocalBundleAdjustment(options_, &data_).usable);
   }
   // A clique, a star and alignments: lines in the reduced system, lines coupled with those, and
@@ -52,15 +59,18 @@ class WindowCovarianceTest : public ::testing::Test {
   TestWindow window_;
   BundleAdjustmentOptions options_;
   WindowData data_;
-  bool with_structure_ = false;
+  bool with_structure_ = false, with_wrong_depths_ = false;
 };
 
 TEST_F(WindowCovarianceTest, MatchesCeres) {
   for (const bool with_structure : {false, true}) {
     SCOPED_TRACE(with_structure);
     with_structure_ = with_structure;
-    options_.reject_chi2_3 = options_.reject_chi2_4 = 1e9;  // no observation loses only its depth
+    with_wrong_depths_ = true;
     Solve();
+    const auto& observations = data_.point_observations;
+    EXPECT_TRUE(std::any_of(observations.begin(), observations.end(),
+                            [](const auto& o) { return o.depth_rejected; }));
     const WindowCovariance found = EstimateCovariance(options_, data_, All());
     const CeresCovariance expected(options_, data_);
     for (size_t i = 0; i < data_.keyframes.size(); ++i) {
@@ -135,6 +145,18 @@ TEST_F(WindowCovarianceTest, ShrinksWithMoreObservations) {
   }
   const Matrix6d half = *EstimateCovariance(options_, data_, All()).keyframes[4];
   EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix6d>(half - all).eigenvalues()[0], 0.0);
+}
+
+TEST_F(WindowCovarianceTest, OfADirectionIsInSquareRadians) {
+  const Eigen::Vector3d direction = Eigen::Vector3d(1.0, -2.0, 0.5).normalized();
+  constexpr double kSigma = 0.02;
+  data_ = MakeTestWindow(scene_).data;
+  data_.extra_blocks.push_back({5, direction, std::make_shared<UnitVectorManifold>()});
+  data_.custom_factors.push_back(
+      {"direction", DirectionPrior::CreateShared(direction, kSigma), nullptr, {BlockId::Extra(5)}});
+  const WindowCovariance found = EstimateCovariance(options_, data_, {{}, {}, {}, {5}});
+  const Eigen::MatrixXd expected = kSigma * kSigma * Eigen::Matrix2d::Identity();
+  EXPECT_THAT(*found.extra_blocks.at(0), IsNear(expected, 1e-12));
 }
 
 TEST_F(WindowCovarianceTest, ThrowsOnInvalidInput) {

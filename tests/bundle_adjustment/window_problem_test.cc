@@ -3,6 +3,7 @@
 
 #include "msc_vo/bundle_adjustment/window_problem.h"
 
+#include <algorithm>
 #include <memory>
 
 #include "tests/support/factor_checks.h"
@@ -233,7 +234,36 @@ TEST_F(WindowProblemTest, LeavesOutWhatIsRejected) {
   const int all = WindowProblem(options_, data_).problem()->NumResidualBlocks();
   data_.point_observations[4].rejected = true;
   data_.line_observations[2].rejected = true;
-  EXPECT_EQ(WindowProblem(options_, data_).problem()->NumResidualBlocks(), all - 4);
+  data_.point_observations[5].depth_rejected = true;
+  data_.line_observations[3].depth_rejected = true;
+  EXPECT_EQ(WindowProblem(options_, data_).problem()->NumResidualBlocks(), all - 6);
+}
+
+// Also where only the depth of an observation is an outlier.
+TEST_F(WindowProblemTest, HasTheInliersOfASolvedWindow) {
+  for (size_t i = 0; i < data_.point_observations.size(); i += 9) {
+    data_.point_observations[i].inverse_depth *= 0.7;
+  }
+  data_.line_observations[4].depth.start *= 0.7;
+  data_.line_observations[4].depth.end *= 0.7;
+  const auto count_marks = [](const auto& observations) {
+    return std::count_if(observations.begin(), observations.end(),
+                         [](const auto& o) { return o.depth_rejected; });
+  };
+  for (const bool consensus : {false, true}) {
+    SCOPED_TRACE(consensus);
+    options_.consensus.enabled = consensus;
+    WindowData solved = data_;
+    const BundleAdjustmentSummary summary = LocalBundleAdjustment(options_, &solved);
+    ASSERT_TRUE(summary.usable);
+    EXPECT_GE(summary.point_depth.num_rejected, 4);
+    EXPECT_EQ(count_marks(solved.point_observations), summary.point_depth.num_rejected);
+    EXPECT_EQ(count_marks(solved.line_observations), summary.line_depth.num_rejected);
+    EXPECT_TRUE(solved.line_observations[4].depth_rejected);
+    int num_inliers = 0;
+    for (const auto& [name, term] : summary.Terms()) num_inliers += term->num_residual_blocks;
+    EXPECT_EQ(WindowProblem(options_, solved).problem()->NumResidualBlocks(), num_inliers);
+  }
 }
 
 TEST_F(WindowProblemTest, WritesNothingThatIsNotValidAndToNoOtherWindow) {

@@ -28,6 +28,7 @@ struct FieldPointers {
   void Flag(const char* /*if_false*/, const char* /*if_true*/, bool& value) {
     flags.push_back(&value);
   }
+  void OptionalFlag(const char* /*if_true*/, bool& value) { flags.push_back(&value); }
 };
 
 /// Changes a window and the options of its bundle adjustment as the bytes of an input say: numbers,

@@ -1,4 +1,6 @@
+import copy
 import pathlib
+import pickle
 import tempfile
 import unittest
 
@@ -47,7 +49,7 @@ ARRAYS = {
     **{f"{kind}_fixed": (np.bool_, ()) for kind in ("keyframe", "point", "line")},
     **{name: (np.float64, ()) for name in ("point_noise", "line_noise", "line_depth_offsets")},
     **{f"{kind}_rejected": (np.bool_, ()) for kind in ("point_observation", "line_observation", "parallel",
-                                                       "perpendicular", "axis_alignment")},
+                                                       "perpendicular", "axis_alignment", "point_depth", "line_depth")},
     "cam_from_world": (np.float64, (4, 4)), "points": (np.float64, (3,)), "lines": (np.float64, (6,))}
 IDS, NUMBERS = (np.int64, ()), (np.float64, ())
 PAIRS = {"a": IDS, "b": IDS, "sigmas": NUMBERS, "counts": IDS}
@@ -125,6 +127,22 @@ class FromArrays(unittest.TestCase):
             np.testing.assert_allclose(window.cam_from_world, scene.poses, atol=1e-5)
             np.testing.assert_allclose(window.points, scene.points, atol=1e-4)
             self.assertEqual(np.count_nonzero(window.point_observation_rejected), 0)
+
+    def test_marks_tell_where_only_the_depth_is_an_outlier(self):
+        scene = Scene()
+        window, wrong = msc_vo.WindowData(scene.camera), [3, 20, 50]
+        observations = scene.window().point_observations
+        observations["inverse_depths"][wrong] *= 0.7
+        window.add_keyframes(range(len(scene.poses)), scene.poses, fixed=[True] + [False] * (len(scene.poses) - 1))
+        window.add_points(range(len(scene.points)), scene.points)
+        window.add_point_observations(**observations)
+        for consensus in (False, True):
+            solved = copy.copy(window)
+            summary = msc_vo.solve_window(solved, msc_vo.WindowOptions(**{"consensus.enabled": consensus}))
+            np.testing.assert_array_equal(np.flatnonzero(solved.point_depth_rejected), wrong)
+            self.assertEqual(summary.terms["point_depth"]["num_rejected"], len(wrong))
+            self.assertFalse(solved.point_observation_rejected.any())
+            self.assertEqual(pickle.loads(pickle.dumps(solved)), solved)
 
     def test_covariances_are_by_id(self):
         window = Scene().window()
@@ -249,6 +267,13 @@ class Factors(unittest.TestCase):
                                      msc_vo.BlockId.extra(0)], huber=2.0, name="wheels")])
             msc_vo.solve_window(window, msc_vo.WindowOptions(solver=solver, first_iterations=20))
             self.assertAlmostEqual(window.extra_blocks[0][0], 2.0, places=3)
+
+    def test_covariances_of_directions_are_in_square_radians(self):
+        window, up = Scene().window(), np.array([0.0, 0.6, 0.8])
+        window.add([msc_vo.ExtraBlock(5, up, "sphere"),
+                    msc_vo.CustomFactor(msc_vo.direction_prior(up, 0.02), [msc_vo.BlockId.extra(5)])])
+        covariance = msc_vo.window_covariance(window, extra_blocks=[5])["extra_blocks"][5]
+        np.testing.assert_allclose(covariance, 0.0004 * np.eye(2), atol=1e-12)
 
     def test_exceptions_pass_through_the_solver(self):
         class Broken(Exception):

@@ -41,7 +41,9 @@ WindowData AwkwardWindow() {
   segment.start = {1.0 / 7.0, 2.0 / 7.0, 3.0 / 7.0};
   segment.end = {4.0 / 7.0, 5.0 / 7.0, 6.0 / 7.0};
   data.lines = {{5, segment, true}, {6, segment, false, 0.37, -1.0 / 13.0}};
-  data.point_observations = {{7, 8, {0.7, 0.8}, 0.9, 1.1, 1.2, true}, {9, 10, {1.3, 1.4}}};
+  data.point_observations = {{7, 8, {0.7, 0.8}, 0.9, 1.1, 1.2, true},
+                             {9, 10, {1.3, 1.4}},
+                             {9, 11, {1.3, 1.5}, 0.9, 1.1, 1.2, false, true}};
   WindowData::LineObservation observation;
   observation.keyframe = 11;
   observation.line = 12;
@@ -57,6 +59,7 @@ WindowData AwkwardWindow() {
   observation.depth.covariance << 2.3, 2.4, 2.5, 2.6;
   observation.depth.num_inliers = 13;
   observation.depth.inlier_ratio = 2.7;
+  observation.depth_rejected = true;
   data.line_observations.push_back(observation);
   data.parallel_pairs = {{14, 15, 2.8, 16, true}, {17, 18, 2.9, 19, false}};
   data.perpendicular_pairs = {{20, 21, 3.1, 22, false}};
@@ -105,17 +108,17 @@ void ExpectSameObservations(const WindowData& a, const WindowData& b) {
   for (size_t i = 0; i < a.point_observations.size(); ++i) {
     const WindowData::PointObservation &o = a.point_observations[i], &p = b.point_observations[i];
     EXPECT_EQ(std::tie(o.keyframe, o.point, o.pixel, o.sigma, o.inverse_depth,
-                       o.inverse_depth_sigma, o.rejected),
+                       o.inverse_depth_sigma, o.rejected, o.depth_rejected),
               std::tie(p.keyframe, p.point, p.pixel, p.sigma, p.inverse_depth,
-                       p.inverse_depth_sigma, p.rejected));
+                       p.inverse_depth_sigma, p.rejected, p.depth_rejected));
   }
   ASSERT_EQ(a.line_observations.size(), b.line_observations.size());
   for (size_t i = 0; i < a.line_observations.size(); ++i) {
     const WindowData::LineObservation &o = a.line_observations[i], &p = b.line_observations[i];
     EXPECT_EQ(std::tie(o.keyframe, o.line, o.segment.start, o.segment.end, o.sigma, o.has_depth,
-                       o.rejected),
+                       o.rejected, o.depth_rejected),
               std::tie(p.keyframe, p.line, p.segment.start, p.segment.end, p.sigma, p.has_depth,
-                       p.rejected));
+                       p.rejected, p.depth_rejected));
     const LineDepth &d = o.depth, &e = p.depth;
     EXPECT_EQ(std::tie(d.start, d.end, d.covariance, d.num_inliers, d.inlier_ratio),
               std::tie(e.start, e.end, e.covariance, e.num_inliers, e.inlier_ratio));
@@ -280,7 +283,9 @@ TEST_F(WindowFileTest, OptionalFieldsHaveDefaults) {
   WriteText("window.txt", start +
                               "point 3 free 1 2 3\npoint 4 free 1 2 3 0.5\n"
                               "line 5 free 0 0 0 1 1 1\nline 6 free 0 0 0 1 1 1 0.7\n"
-                              "line 7 free 0 0 0 1 1 1 0.7 -0.01\nend 6\n");
+                              "line 7 free 0 0 0 1 1 1 0.7 -0.01\n"
+                              "point_observation 1 3 5 6 1 0.5 0.1 kept\n"
+                              "point_observation 1 4 5 6 1 0.5 0.1 kept depth_rejected\nend 8\n");
   const WindowData data = ReadWindow(Path("window.txt")).data;
   EXPECT_EQ(data.points[0].noise, 1.0);
   EXPECT_EQ(data.points[1].noise, 0.5);
@@ -288,6 +293,10 @@ TEST_F(WindowFileTest, OptionalFieldsHaveDefaults) {
   EXPECT_EQ(data.lines[1].noise, 0.7);
   EXPECT_EQ(data.lines[1].depth_offset, 0.0);
   EXPECT_EQ(data.lines[2].depth_offset, -0.01);
+  EXPECT_FALSE(data.point_observations[0].depth_rejected);
+  EXPECT_TRUE(data.point_observations[1].depth_rejected);
+  EXPECT_THAT(ErrorOf(start + "point_observation 1 3 5 6 1 0.5 0.1 kept x\nend 2\n"),
+              Names("window.txt:3", "'x'", "depth_rejected"));
   EXPECT_THAT(ErrorOf(start + "point 3 free 1 2 3 4 5\nend 2\n"),
               Names("window.txt:3", "point ID free|fixed X Y Z [NOISE]", "7"));
   EXPECT_THAT(ErrorOf(start + "point 3 free 1 2 3 x\nend 2\n"),

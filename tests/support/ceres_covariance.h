@@ -29,8 +29,7 @@ inline CovarianceSelection AllItems(const WindowData& data) {
   return {Ids(data.keyframes), Ids(data.points), Ids(data.lines)};
 }
 
-// Covariances of the same factors by Ceres. Depths that fail the chi-square test are included,
-// unlike in EstimateCovariance: disable that test (reject_chi2_3, reject_chi2_4).
+// Covariances of the same factors by Ceres.
 class CeresCovariance {
  public:
   CeresCovariance(const BundleAdjustmentOptions& options, const WindowData& data) : state_(data) {

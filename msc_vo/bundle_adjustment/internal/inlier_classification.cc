@@ -44,8 +44,15 @@ WindowInlierMask UnrejectedInlierMask(const BundleAdjustmentOptions& options,
       if (records[i].rejected) (*inliers)[i] = {};
     }
   };
+  const auto drop_depths = [](const auto& observations, std::vector<InlierMask>* inliers) {
+    for (size_t i = 0; i < observations.size(); ++i) {
+      if (observations[i].depth_rejected) (*inliers)[i].depth = false;
+    }
+  };
   drop_rejected(data.point_observations, &inlier_mask.points);
   drop_rejected(data.line_observations, &inlier_mask.lines);
+  drop_depths(data.point_observations, &inlier_mask.points);
+  drop_depths(data.line_observations, &inlier_mask.lines);
   ForEachRelation(
       [&](const auto& term) { drop_rejected(data.*term.records, &(inlier_mask.*term.inliers)); });
   return inlier_mask;

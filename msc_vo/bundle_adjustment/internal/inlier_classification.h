@@ -12,7 +12,8 @@ namespace msc_vo {
 WindowInlierMask InitialInlierMask(const BundleAdjustmentOptions& options, const WindowIndex& index,
                                    const WindowData& data, int* num_behind);
 
-/// The same without the measurements that the data mark as rejected.
+/// The same without the measurements and the depths that the data mark as rejected: the inliers of
+/// a solved window.
 WindowInlierMask UnrejectedInlierMask(const BundleAdjustmentOptions& options,
                                       const WindowIndex& index, const WindowData& data);
 
