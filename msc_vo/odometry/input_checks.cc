@@ -4,11 +4,11 @@
 #include "msc_vo/odometry/input_checks.h"
 
 #include <cmath>
-#include <set>
 #include <stdexcept>
 #include <string>
 
 #include "msc_vo/camera/lens_validity.h"
+#include "msc_vo/sensor/depth_units.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
@@ -18,6 +18,9 @@ namespace {
 // Largest time between a depth image and its colour image, seconds: the motion of the last two
 // frames cannot be extrapolated further.
 constexpr double kMaxDepthDelay = 1.0;
+
+// Largest time stamp, seconds: the year 5138. Milliseconds since 1970 exceed it from 1973 on.
+constexpr double kMaxTimestamp = 1e11;
 
 }  // namespace
 
@@ -41,6 +44,12 @@ void CheckTimestamp(int64_t id, double timestamp, const std::optional<double>& l
   if (!std::isfinite(timestamp)) {
     throw std::invalid_argument(image + ": its time stamp must be a finite number of seconds");
   }
+  if (std::abs(timestamp) > kMaxTimestamp) {
+    throw std::invalid_argument(
+        image + FormatText(": its time stamp %g must be in seconds: divide milliseconds by 1e3, "
+                           "microseconds by 1e6, nanoseconds by 1e9",
+                           timestamp));
+  }
   if (!last || timestamp > *last) return;
   throw std::invalid_argument(image +
                               ": its time stamp is not later than that of the previous image");
@@ -60,25 +69,8 @@ void CheckRecordedDepth(int64_t id, const cv::Mat& recorded_depth) {
 }
 
 void CheckDepthUnits(int64_t id, const cv::Mat& depth) {
-  constexpr int kStride = 8;           // pixels, along rows and columns
-  constexpr float kFarthest = 100.0f;  // metres, beyond all surfaces of an indoor scene
-  constexpr size_t kEnough = 10;       // one value may stand for pixels without a measurement
-  std::set<float> values;
-  for (int y = 0; y < depth.rows; y += kStride) {
-    const float* row = depth.ptr<float>(y);
-    for (int x = 0; x < depth.cols; x += kStride) {
-      const float z = row[x];
-      if (!(z > 0.0f) || !std::isfinite(z)) continue;
-      if (z != std::floor(z)) return;  // metres are no whole numbers
-      values.insert(z);
-    }
-  }
-  if (values.size() < kEnough || *values.rbegin() <= kFarthest) return;
-  throw std::invalid_argument(
-      "image " + std::to_string(id) +
-      FormatText(": depth is in metres, but all of it is whole numbers up to %g: divide it by the "
-                 "units per metre (1000 for millimetres)",
-                 static_cast<double>(*values.rbegin())));
+  const std::string error = DepthUnitsError(depth);
+  if (!error.empty()) throw std::invalid_argument("image " + std::to_string(id) + ": " + error);
 }
 
 }  // namespace msc_vo

@@ -23,8 +23,8 @@ OdometryOptions ValidatedOptions(const OdometryOptions& options);
 /// Returns the camera.
 const PinholeCamera& ValidatedCamera(const PinholeCamera& camera, const LensDistortion& distortion);
 
-/// Checks the time stamp (seconds) of image `id`, which must be later than `last`, that of the
-/// image before.
+/// Checks the time stamp (seconds, up to 1e11) of image `id`, which must be later than `last`, that
+/// of the image before.
 void CheckTimestamp(int64_t id, double timestamp, const std::optional<double>& last);
 
 /// Checks the time from the colour image to its depth image, seconds.

@@ -161,19 +161,20 @@ class Odometry {
   /// Images that are views of larger matrices are copied.
   ///
   /// An image that does not match the camera, whose depth is not in metres, or whose time stamp
-  /// does not ascend, is refused with std::invalid_argument: it is as if it had not been given, and
-  /// may be given again after it has been corrected. All other exceptions are thrown after the
-  /// frame is complete: it is the last one of frames(), and giving the image again is refused. They
-  /// are those of a keyframe step whose map would have become visible (the map before remains in
-  /// use), of the callback of the pose factors and of their evaluation, std::invalid_argument that
-  /// names an invalid factor, and those of the tracking observer. Of several in one image, the
-  /// first one is thrown, and the others are logged. If anything else fails, the frame is lost.
+  /// does not ascend or is beyond 1e11 seconds, is refused with std::invalid_argument: it is as if
+  /// it had not been given, and may be given again after it has been corrected. All other
+  /// exceptions are thrown after the frame is complete: it is the last one of frames(), and giving
+  /// the image again is refused. They are those of a keyframe step whose map would have become
+  /// visible (the map before remains in use), of the callback of the pose factors and of their
+  /// evaluation, std::invalid_argument that names an invalid factor, and those of the tracking
+  /// observer. Of several in one image, the first one is thrown, and the others are logged. If
+  /// anything else fails, the frame is lost.
   FrameResult Process(const RgbdImage& image);
 
   /// Records a frame at `timestamp` (seconds) that is not processed, because its image came too
   /// late (kDropped) or could not be read (kUnreadable). It gets the pose of the previous frame,
   /// and in the result of Finish() the pose interpolated between its neighbours. Throws
-  /// std::invalid_argument if time stamps do not ascend or on another status.
+  /// std::invalid_argument on time stamps that Process() refuses, or on another status.
   FrameResult Drop(int64_t id, double timestamp, TrackingStatus status = TrackingStatus::kDropped);
 
   /// Whether RunMapping() has work to do; false unless OdometryOptions::external_mapping.

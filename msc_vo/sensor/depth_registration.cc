@@ -8,8 +8,10 @@
 #include <cstdint>
 #include <cstring>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
+#include "msc_vo/sensor/depth_units.h"
 #include "msc_vo/sensor/hole_removal.h"
 #include "msc_vo/sensor/surface_map.h"
 
@@ -248,6 +250,8 @@ cv::Mat DepthRegistration::Register(const cv::Mat& depth) const {
         "DepthRegistration: the depth image must be CV_32FC1 and of the "
         "size of the depth camera");
   }
+  const std::string error = DepthUnitsError(depth);
+  if (!error.empty()) throw std::invalid_argument("DepthRegistration: " + error);
   if (geometry_.grid.width == 0) {  // the cameras look past each other
     return cv::Mat::zeros(geometry_.color_height, geometry_.color_width, CV_32FC1);
   }

@@ -33,7 +33,8 @@ class DepthRegistration {
   /// Returns the depth (CV_32FC1, metres along the optical axis of the colour camera, 0: none) of
   /// the pixels of the colour image. `depth`: CV_32FC1, metres; 0, NaN: no measurement.
   /// Thread-safe; every thread that calls it keeps about 16 bytes per depth pixel as buffers.
-  /// Throws std::invalid_argument if the size or the type of `depth` is wrong.
+  /// Throws std::invalid_argument if the size or the type of `depth` is wrong, or if its depths are
+  /// raw units of a sensor rather than metres (DepthUnitsError()).
   cv::Mat Register(const cv::Mat& depth) const;
 
  private:

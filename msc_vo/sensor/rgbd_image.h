@@ -14,7 +14,9 @@ namespace msc_vo {
 
 /// A decoded, registered RGB-D image: the depth of colour pixel (x, y) is depth(y, x).
 struct RgbdImage {
-  int64_t id = 0;          ///< position in the sequence, from 0
+  /// Position in the sequence, from 0. Names the frame in results, messages and the log; nothing
+  /// requires it to be unique or to ascend.
+  int64_t id = 0;
   double timestamp = 0.0;  ///< seconds, of the colour image
   cv::Mat gray;            ///< CV_8UC1
   cv::Mat depth;           ///< CV_32FC1, metres along the optical axis; 0: no measurement

@@ -246,6 +246,7 @@ TEST_F(ProcessErrorsTest, OfTheImageLeaveNoFrame) {
       [](RgbdImage* image) { image->depth.convertTo(image->recorded_depth, CV_16U, 1000.0); },
       [nan](RgbdImage* image) { image->timestamp = nan; },
       [](RgbdImage* image) { image->timestamp = -1.0; },
+      [](RgbdImage* image) { image->timestamp = 1.7e15; },  // microseconds
       [](RgbdImage* image) { image->depth_delay = 2.0; }};
   Odometry plain({}, camera_, {}), disturbed({}, camera_, {});
   for (const RgbdImage& image : *images_) {

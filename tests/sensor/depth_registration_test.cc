@@ -360,6 +360,14 @@ TEST(DepthRegistration, RejectsWrongSizes) {
   EXPECT_THROW(registration.Register(cv::Mat(240, 320, CV_16UC1)), std::invalid_argument);
 }
 
+TEST(DepthRegistration, RejectsMillimetres) {
+  cv::Mat millimetres(240, 320, CV_32FC1);
+  for (int y = 0; y < 240; ++y) millimetres.row(y) = 1500.0 + y;
+  const DepthRegistration registration(Rig(), Color(), {});
+  EXPECT_THROW(registration.Register(millimetres), std::invalid_argument);
+  EXPECT_GT(cv::countNonZero(registration.Register(0.001 * millimetres)), 0);
+}
+
 TEST(DepthCamera, ErrorsNameValue) {
   const auto error_of = [](const std::function<void(DepthCamera*)>& change) {
     DepthCamera rig = Rig();
