@@ -27,5 +27,7 @@ void BindEvaluation(pybind11::module_* module);    ///< evaluate and its errors
 void BindWindow(pybind11::module_* module);        ///< WindowData and its solver
 /// Pickling, copies and comparisons of the values among the classes above, which are bound before.
 void BindValues(pybind11::module_* module);
+/// Makes use of an object of the classes above before its __init__() a TypeError.
+void RefuseUninitializedObjects(const pybind11::module_& module);
 
 }  // namespace msc_vo

@@ -25,4 +25,5 @@ PYBIND11_MODULE(_msc_vo, module) {
   msc_vo::BindEvaluation(&module);
   msc_vo::BindWindow(&module);
   msc_vo::BindValues(&module);
+  msc_vo::RefuseUninitializedObjects(module);
 }

@@ -20,6 +20,7 @@
 #include "apps/python/contexts.h"
 #include "apps/python/factors.h"
 #include "apps/python/fork_guard.h"
+#include "apps/python/garbage_collection.h"
 #include "apps/python/map.h"
 #include "apps/python/option_table.h"
 #include "apps/python/python_names.h"
@@ -119,9 +120,11 @@ class PyOdometry {
   }
 
   void SetTrackingObserver(const py::object& callback) {
+    const SharedObject shared(callback);
     TrackingObserver observer;
-    if (!callback.is_none()) observer = MakeTrackingObserver(callback);
+    if (!callback.is_none()) observer = MakeTrackingObserver(shared);
     Alone([&] { odometry_->SetTrackingObserver(std::move(observer)); });
+    tracking_observer_ = shared;
   }
 
   void SkipClippedDepthSearch() {
@@ -178,10 +181,10 @@ class PyOdometry {
   }
 
   void SetWindowFactors(const py::object& callback) {
+    const SharedObject shared(callback);
     WindowFactorCallback function;
     if (!callback.is_none()) {
-      function = [this,
-                  shared = SharedObject(callback)](const WindowContext& window) -> WindowFactors {
+      function = [this, shared](const WindowContext& window) -> WindowFactors {
         const CallbackGuard guard_of_callback(this);
         const py::gil_scoped_acquire gil;
         const auto context = std::make_shared<PyWindowContext>(window);
@@ -194,32 +197,43 @@ class PyOdometry {
       };
     }
     Alone([&] { odometry_->SetWindowFactors(std::move(function)); });
+    window_factors_ = shared;
   }
 
   void SetPoseFactors(const py::object& callback) {
+    const SharedObject shared(callback);
     PoseFactorCallback function;
     if (!callback.is_none()) {
-      function =
-          [shared = SharedObject(callback)](const FrameContext& frame) -> std::vector<PoseFactor> {
+      function = [shared](const FrameContext& frame) -> std::vector<PoseFactor> {
         const py::gil_scoped_acquire gil;
         return PoseFactorsArgument(shared.get()(frame), "pose factors");
       };
     }
     Alone([&] { odometry_->SetPoseFactors(std::move(function)); });
+    pose_factors_ = shared;
   }
 
   void SetWindowObserver(const py::object& callback) {
+    const SharedObject shared(callback);
     WindowObserver function;
     if (!callback.is_none()) {
-      function = [this, shared = SharedObject(callback)](KeyframeId keyframe,
-                                                         const BundleAdjustmentOptions& options,
-                                                         const WindowData& window) {
+      function = [this, shared](KeyframeId keyframe, const BundleAdjustmentOptions& options,
+                                const WindowData& window) {
         const CallbackGuard guard_of_callback(this);
         const py::gil_scoped_acquire gil;
         shared.get()(keyframe, std::make_shared<WindowData>(window), WindowOptionsTable(options));
       };
     }
     Alone([&] { odometry_->SetWindowObserver(std::move(function)); });
+    window_observer_ = shared;
+  }
+
+  template <typename Action>
+  void ForEachSharedObject(const Action& action) {
+    action(&window_factors_);
+    action(&pose_factors_);
+    action(&window_observer_);
+    action(&tracking_observer_);
   }
 
  private:
@@ -281,6 +295,7 @@ class PyOdometry {
 
   static constexpr int64_t kNumChecked = 4;  // images whose byte order is checked
 
+  SharedObject window_factors_, pose_factors_, window_observer_, tracking_observer_;
   std::unique_ptr<Odometry> odometry_;
   RunCheckpoint checkpoint_;
   ForkGuard process_;
@@ -323,7 +338,8 @@ void BindOdometry(py::module_* module) {
   py::class_<PyOdometry> odometry(
       *module, "Odometry",
       "RGB-D visual odometry. process() every image, then finish(). The same images give the same "
-      "poses, bit by bit. The GIL is released meanwhile.");
+      "poses, bit by bit. The GIL is released meanwhile.",
+      CollectsGarbage<PyOdometry>());
   odometry
       .def(py::init<const OptionsTable*, const PinholeCamera&, const py::object&>(),
            py::arg("options"), py::arg("camera"), py::arg("distortion") = py::none(),

@@ -11,7 +11,8 @@
 namespace msc_vo {
 
 /// A Python object that threads without the GIL may copy and destroy, as std::function and
-/// std::shared_ptr do with their contents. get() needs the GIL.
+/// std::shared_ptr do with their contents. All copies share one reference to it. The members need
+/// the GIL.
 class SharedObject {
  public:
   SharedObject() = default;
@@ -21,7 +22,16 @@ class SharedObject {
           delete held;
         }) {}
 
-  const pybind11::object& get() const { return *object_; }
+  pybind11::object get() const { return *object_; }
+
+  /// For the garbage collector of Python: visits the object, and replaces it by None in all copies.
+  int Visit(visitproc visit, void* arg) const {
+    if (object_ != nullptr) Py_VISIT(object_->ptr());
+    return 0;
+  }
+  void Clear() {
+    if (object_ != nullptr) *object_ = pybind11::none();
+  }
 
  private:
   std::shared_ptr<pybind11::object> object_;

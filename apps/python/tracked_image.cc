@@ -13,7 +13,6 @@
 #include "apps/python/arrays.h"
 #include "apps/python/bindings.h"
 #include "apps/python/map.h"
-#include "apps/python/shared_object.h"
 
 namespace msc_vo {
 
@@ -71,15 +70,15 @@ py::array_t<int64_t> LandmarksOf(const std::vector<Match>& matches, size_t num_f
 
 }  // namespace
 
-TrackingObserver MakeTrackingObserver(const py::object& callback) {
-  return [shared = SharedObject(callback)](const TrackedImage& image) {
+TrackingObserver MakeTrackingObserver(const SharedObject& callback) {
+  return [callback](const TrackedImage& image) {
     const py::gil_scoped_acquire gil;
     const auto view = std::make_shared<PyTrackedImage>(PyTrackedImage{&image});
     struct Guard {
       PyTrackedImage* view;
       ~Guard() { view->image = nullptr; }
     } const guard{view.get()};
-    shared.get()(view);
+    callback.get()(view);
   };
 }
 

@@ -3,14 +3,13 @@
 
 #pragma once
 
-#include <pybind11/pybind11.h>
-
+#include "apps/python/shared_object.h"
 #include "msc_vo/odometry/tracking_observer.h"
 
 namespace msc_vo {
 
 /// The observer that calls a Python function with a TrackedImage, which is valid during the call.
 /// Takes the GIL.
-TrackingObserver MakeTrackingObserver(const pybind11::object& callback);
+TrackingObserver MakeTrackingObserver(const SharedObject& callback);
 
 }  // namespace msc_vo

@@ -1,9 +1,11 @@
+import gc
 import os
 import sys
 import tempfile
 import threading
 import time
 import unittest
+import weakref
 
 import numpy as np
 
@@ -256,6 +258,54 @@ class Callbacks(unittest.TestCase):
             odometry.set_window_observer(lambda *_: [sum(range(1000)) for _ in range(200)])
             support.process(odometry, support.room_images()[:8])
             del odometry
+
+
+class Owner:
+    """Owns an odometry that calls its methods."""
+
+    def __init__(self, setters, **options):
+        self.odometry = support.room_odometry(**options)
+        for setter in setters:
+            getattr(self.odometry, setter)(self.callback)
+
+    def callback(self, *_):
+        return []
+
+
+class Lifetime(unittest.TestCase):
+    SETTERS = ("set_window_factors", "set_pose_factors", "set_window_observer", "set_tracking_observer")
+
+    def test_owners_whose_methods_are_callbacks_are_freed(self):
+        num_threads = len(os.listdir("/proc/self/task"))
+        for setters in ([], *([setter] for setter in self.SETTERS), self.SETTERS):
+            for threads in (1, 2):
+                with self.subTest(setters=setters, threads=threads):
+                    owner = Owner(setters, threads=threads)
+                    support.process(owner.odometry, support.room_images()[:6])
+                    freed = weakref.ref(owner)
+                    del owner
+                    gc.collect()
+                    self.assertIsNone(freed())
+                    self.assertEqual(len(os.listdir("/proc/self/task")), num_threads)
+
+    def test_callbacks_of_an_odometry_in_use_are_not_freed(self):
+        owner = Owner(self.SETTERS, threads=2)
+        odometry, kept = owner.odometry, weakref.ref(owner)
+        del owner
+        for image in support.room_images()[:12]:
+            gc.collect()
+            odometry.process(image.timestamp, image.gray, image.depth)
+        odometry.finish()
+        self.assertIsNotNone(kept())
+
+    def test_callbacks_that_are_replaced_are_freed(self):
+        odometry, owner = support.room_odometry(), Owner([])
+        freed = weakref.ref(owner)
+        odometry.set_pose_factors(owner.callback)
+        odometry.set_pose_factors(None)
+        del owner
+        gc.collect()
+        self.assertIsNone(freed())
 
 
 class OtherThreads(unittest.TestCase):

@@ -63,6 +63,7 @@ def calls():
     yield process(mask=np.zeros((480, 640, 3), np.uint8)), r"mask: must be of shape \(height, width\), is \(480, 640, 3\)"
     yield process(t="now"), "timestamp: expected a number"
     yield process(t=float("nan")), "time stamp must be a finite number"
+    yield process(t=1.7e18), r"time stamp 1.7e\+18 must be in seconds: .* nanoseconds by 1e9"
     yield process(depth_delay="late"), "depth_delay: expected a number"
     yield process(depth_delay=5.0), "depth_delay = 5 must be from -1 to 1 seconds"
     yield lambda: odometry.drop("now"), "timestamp: expected a number"
@@ -91,9 +92,11 @@ def calls():
     yield lambda: msc_vo.gravity_direction([0, 0, 1], 0.0), "sigma: must be positive"
     yield lambda: msc_vo.PoseFactor(cost, huber=-1.0), "huber: must be positive"
     yield lambda: msc_vo.ExtraBlock(0, [1.0], "torus"), "manifold: must be"
+    yield lambda: msc_vo.ExtraBlock(0, [0.0, 0.0, 9.81], "sphere"), "value: not a unit vector"
     yield lambda: msc_vo.CostFunction(print, 0, [1]), "num_residuals and every block size must be positive"
     yield lambda: cost.evaluate([1, 2]), r"block 0: expected shape \(7,\)"
     yield lambda: registration.register(depth[:240]), "depth: image is 640x240, depth camera is 640x480"
+    yield lambda: registration.register(1500 + np.indices(depth.shape, np.float32)[0]), "whole numbers up to 1972"
     yield lambda: msc_vo.set_log_level("loud"), "level: must be one of"
     yield with_factors("set_pose_factors", 5), "pose factors: expected PoseFactor objects, not 5"
     yield with_factors("set_pose_factors", [cost]), "pose factors: expected PoseFactor objects, not <"
@@ -125,6 +128,22 @@ class Errors(unittest.TestCase):
             with self.assertRaises(TypeError) as raised:
                 call()
             self.assertNotRegex(str(raised.exception), FOREIGN)
+
+    def test_objects_are_not_used_before_they_are_initialised(self):
+        window, _ = msc_vo.read_window(support.WINDOWS / "room.txt")
+        classes = [kind for kind in vars(msc_vo).values() if isinstance(kind, type(msc_vo.Odometry))]
+        self.assertGreater(len(classes), 20)
+        for kind in classes:
+            for name, member in vars(kind).items():
+                if isinstance(member, property):
+                    with self.subTest(kind=kind.__name__, name=name), self.assertRaisesRegex(TypeError, "initialised"):
+                        getattr(kind.__new__(kind), name)
+        for call in (lambda: len(msc_vo.Sequence.__new__(msc_vo.Sequence)),
+                     lambda: msc_vo.Odometry.__new__(msc_vo.Odometry).finish(),
+                     lambda: msc_vo.write_window("file", msc_vo.WindowData.__new__(msc_vo.WindowData)),
+                     lambda: window.add([msc_vo.CustomFactor.__new__(msc_vo.CustomFactor)])):
+            with self.assertRaisesRegex(TypeError, "initialised"):
+                call()
 
     def test_paths_need_not_be_utf8(self):
         with tempfile.TemporaryDirectory() as folder:
