@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "msc_vo/text/classic_locale.h"
+#include "msc_vo/text/text_file.h"
 #include "msc_vo/text/write_error.h"
 
 namespace msc_vo {
@@ -102,10 +103,23 @@ std::string PathIn(const std::string& folder, const std::string& name) {
   return (fs::path(folder) / name).string();
 }
 
+std::string FindEntry(const std::string& folder, const std::string& name) {
+  return FirstEntry(folder, {name});
+}
+
 std::string FirstEntry(const std::string& folder, const std::vector<std::string>& names) {
+  std::vector<std::string> entries;
   for (const std::string& name : names) {
     std::string path = PathIn(folder, name);
     if (HasEntry(path)) return path;
+    if (entries.empty() && FolderProblem(folder).empty()) {
+      entries = ListFolder(folder);
+      std::sort(entries.begin(), entries.end());
+    }
+    const std::string lowercase = Lowercase(name);
+    for (const std::string& entry : entries) {
+      if (Lowercase(fs::path(entry).filename().string()) == lowercase) return entry;
+    }
   }
   return "";
 }

@@ -23,7 +23,12 @@ bool HasEntry(const std::string& path);
 /// Returns the path of an entry of a folder.
 std::string PathIn(const std::string& folder, const std::string& name);
 
-/// Returns the path of the first of these entries that a folder has; empty if it has none.
+/// Returns the path of the entry of a folder with this name, or else of one whose name differs in
+/// the case of its letters only ("RGB" for "rgb"); empty if there is neither.
+std::string FindEntry(const std::string& folder, const std::string& name);
+
+/// Returns the path of the first of these entries that a folder has, see FindEntry(); empty if it
+/// has none.
 std::string FirstEntry(const std::string& folder, const std::vector<std::string>& names);
 
 /// Tests whether `path` is a folder or a link to one. Never throws.

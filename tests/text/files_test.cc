@@ -55,6 +55,15 @@ TEST_F(FilesTest, ReadNamesBrokenLinks) {
   EXPECT_FALSE(HasEntry(Path("missing")));
 }
 
+TEST_F(FilesTest, FindEntryPrefersTheExactName) {
+  WriteText("RGB.txt", "");
+  EXPECT_EQ(FindEntry(Folder(), "rgb.txt"), Path("RGB.txt"));
+  WriteText("rgb.txt", "");
+  EXPECT_EQ(FindEntry(Folder(), "rgb.txt"), Path("rgb.txt"));
+  EXPECT_EQ(FirstEntry(Folder(), {"none", "Rgb.txt"}), Path("RGB.txt"));
+  EXPECT_EQ(FindEntry(Path("none"), "rgb.txt"), "");
+}
+
 TEST_F(FilesTest, CheckWritableLeavesNoTrace) {
   CheckWritable(Path("new.txt"));
   EXPECT_FALSE(HasEntry(Path("new.txt")));
