@@ -41,7 +41,7 @@ OUTSIDE_HEADERS = [
     (r"sqlite3\.h$", {"map_file", "ros_bag"}),
     (r"spdlog/", {"logging", "apps"}),
     (r"yaml-cpp/", {"config", "ros_bag", "results"}),
-    (r"nlohmann/", {"report", "phone_recordings", "recording", "results", "exports", "apps"}),
+    (r"nlohmann/", {"report", "datasets", "recording", "results", "exports", "apps"}),
     (r"ceres/", {"factors", "bundle_adjustment", "pose_estimation", "structure", "self_calibration",
                  "inertial", "apps"}),
     (r"(thread|mutex|shared_mutex|future|condition_variable)$",

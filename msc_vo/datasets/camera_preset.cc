@@ -79,15 +79,26 @@ const CameraPreset& FindCameraPreset(const std::string& name) {
 }
 
 std::string GuessCameraPreset(const std::string& directory) {
-  // "fr1", "fr1_desk" or, with the first word of a sequence of TUM, "fr1desk", but neither
-  // "fr10_lab" nor "fr3nch_flat".
+  // "freiburg1_desk", "fr1", "fr1_desk" or, with the first word of a sequence of TUM, "fr1desk",
+  // but neither "fr10_lab" nor "fr3nch_flat" nor "uni_freiburg1_lab".
   static const std::regex kPattern(
-      ".*freiburg([123]).*|fr([123])(|[^a-z0-9].*|(desk|xyz|rpy|room|360|floor|plant|teddy|office|"
-      "long|large|walking|sitting|struct|nostruct).*)");
+      ".*rgbd_dataset_freiburg([123])_.*|(?:freiburg|fr)([123])(?:|[^a-z0-9].*|(?:desk|xyz|rpy|"
+      "room|"
+      "360|floor|plant|teddy|office|long|large|walking|sitting|struct|nostruct).*)");
   const std::string name = Lowercase(NameOf(directory));
   std::smatch match;
   if (!std::regex_match(name, match, kPattern)) return "";
   return "tum-fr" + match.str(1) + match.str(2);
+}
+
+bool HasPublishedName(const std::string& directory) {
+  static const std::regex kTum("rgbd_dataset_freiburg[123]_.*");
+  static const std::regex kScene("chess|fire|heads|office|pumpkin|redkitchen|stairs");
+  static const std::regex kSequence("seq-[0-9]{2}");
+  const std::string name = Lowercase(NameOf(directory));
+  const std::string scene = Lowercase(NameOf(directory + "/.."));
+  return std::regex_match(name, kTum) ||
+         (std::regex_match(name, kSequence) && std::regex_match(scene, kScene));
 }
 
 }  // namespace msc_vo

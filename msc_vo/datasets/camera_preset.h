@@ -27,4 +27,8 @@ const CameraPreset& FindCameraPreset(const std::string& name);
 /// "tum-fr2"); empty if the name matches none.
 std::string GuessCameraPreset(const std::string& directory);
 
+/// Tests whether the name of a folder is that of a sequence whose camera is known: one of TUM
+/// RGB-D, or of 7-Scenes in the folder of its scene ("chess/seq-01").
+bool HasPublishedName(const std::string& directory);
+
 }  // namespace msc_vo

@@ -30,20 +30,29 @@ bool IsNamedRegistered(const std::string& name) {
 
 std::string FindDepth(const std::string& directory, const std::string& ending,
                       std::vector<std::string>* warnings) {
-  const std::string plain = PathIn(directory, "depth" + ending);
+  std::vector<std::string> names = {"depth", "depths", "depth_images", "depth_left",
+                                    "lowres_depth"};
+  for (std::string& name : names) name += ending;
+  const std::string plain = FirstEntry(directory, names);
   std::vector<std::string> entries = ListFolder(directory);
   std::sort(entries.begin(), entries.end());
   const auto registered = std::find_if(entries.begin(), entries.end(), [&](const auto& entry) {
     const fs::path path = entry;
     return IsNamedRegistered(Lowercase(path.stem().string())) &&
-           (ending.empty() ? !ListImages(entry).empty() : path.extension().string() == ending);
+           (ending.empty() ? !ListImages(entry).empty()
+                           : Lowercase(path.extension().string()) == ending);
   });
-  if (registered == entries.end()) return HasEntry(plain) ? plain : "";
-  if (warnings != nullptr && HasEntry(plain)) {
+  if (registered == entries.end()) return plain;
+  if (warnings != nullptr && !plain.empty()) {
     warnings->push_back(*registered + " is used rather than " + plain +
                         ", because its name says that depth is registered to colour");
   }
   return *registered;
+}
+
+std::string FindColorFolder(const std::string& directory) {
+  return FirstEntry(directory, {"rgb", "color", "colour", "image", "images", "rgb_images",
+                                "color_images", "image_left", "lowres_wide"});
 }
 
 std::string FindColorList(const std::string& directory) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "msc_vo/datasets/folder_camera.h"
 #include "msc_vo/datasets/image_folder.h"
 #include "msc_vo/datasets/image_list.h"
 #include "msc_vo/datasets/name_pairing.h"
@@ -60,7 +61,8 @@ SequenceIndex Read(const std::string& directory) {
   }
   ReadTumGroundTruth(directory, WholeStamps::kFrameNumbers, &index);
   ReadFolderCamera(directory, &index);
-  index.preset = "icl-nuim";
+  ReadOtherCamera(directory, {5000.0}, &index);
+  if (Recognises(directory)) index.preset = "icl-nuim";
   return index;
 }
 

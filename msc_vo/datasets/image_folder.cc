@@ -7,9 +7,13 @@
 #include <filesystem>
 #include <iterator>
 #include <set>
+#include <stdexcept>
+
+#include <opencv2/core.hpp>
 
 #include "msc_vo/datasets/image_name.h"
 #include "msc_vo/geometry/erase_if.h"
+#include "msc_vo/image_files/image_file.h"
 #include "msc_vo/text/ending.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
@@ -62,8 +66,24 @@ std::vector<std::string> ListImages(const std::string& folder, const std::string
     if (StartsWith(stem, prefix) && HasEnding(stem, suffix)) paths.push_back(path);
   }
   RemoveJpegCopies(&paths);
-  std::sort(paths.begin(), paths.end(), NaturalLess);
+  SortNames(&paths);
   return paths;
+}
+
+FolderImages FindFolderImages(const std::string& folder) {
+  const std::vector<std::string> images = ListImages(folder);
+  if (images.empty() || !FileProblem(images.front(), kMaxImageBytes).empty()) {
+    return FolderImages::kNone;
+  }
+  try {
+    const cv::Mat image = ReadImageFile(images.front());
+    if (image.empty()) return FolderImages::kNone;
+    if (image.channels() == 1 && image.elemSize1() > 1) return FolderImages::kDepth;
+    const bool is_color = image.channels() > 1 && image.elemSize1() == 1;
+    return is_color ? FolderImages::kColor : FolderImages::kOther;
+  } catch (const std::runtime_error&) {
+    return FolderImages::kNone;
+  }
 }
 
 }  // namespace msc_vo

@@ -71,6 +71,30 @@ double ParseStamp(const TextLine& line, size_t field) {
   return *stamp;
 }
 
+// Reads the lines of a list. Removes a header, such as "timestamp filename", and joins the fields
+// of a quoted path with blanks.
+std::vector<TextLine> ReadListLines(const std::string& path) {
+  std::vector<TextLine> lines = ReadTextLines(path);
+  if (!lines.empty() && Lowercase(lines.front().fields.front()).rfind("time", 0) == 0) {
+    lines.erase(lines.begin());
+  }
+  for (TextLine& line : lines) {
+    std::vector<std::string> fields;
+    bool is_quoted = false;
+    for (const std::string& field : line.fields) {
+      if (is_quoted) {
+        fields.back() += " " + field;
+      } else {
+        fields.push_back(field);
+      }
+      const std::string& text = fields.back();
+      is_quoted = !text.empty() && text.front() == '"' && (text.size() == 1 || text.back() != '"');
+    }
+    line.fields = std::move(fields);
+  }
+  return lines;
+}
+
 // Warns if the stamps in one of the fields lost digits.
 void CheckPrecision(const std::vector<TextLine>& lines, const std::vector<size_t>& fields,
                     std::vector<std::string>* warnings) {
@@ -178,7 +202,7 @@ std::optional<size_t> FindClockStep(const std::vector<ListedImage>& images) {
 std::vector<ListedImage> ReadImageList(const std::string& path,
                                        std::vector<std::string>* warnings) {
   std::vector<ListedImage> images;
-  std::vector<TextLine> lines = ReadTextLines(path);
+  std::vector<TextLine> lines = ReadListLines(path);
   CorrectFractions(0, &lines, warnings);
   for (const TextLine& line : lines) {
     if (line.fields.size() != 2) {
@@ -220,7 +244,7 @@ bool IsDepthFirst(const std::vector<TextLine>& lines) {
 }
 
 ImageLists ReadAssociations(const std::string& path, std::vector<std::string>* warnings) {
-  std::vector<TextLine> lines = ReadTextLines(path);
+  std::vector<TextLine> lines = ReadListLines(path);
   if (lines.empty()) {
     throw std::runtime_error(path + ": lists no image; expected 'time colour time depth' rows");
   }

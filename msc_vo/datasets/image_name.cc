@@ -3,6 +3,8 @@
 
 #include "msc_vo/datasets/image_name.h"
 
+#include <algorithm>
+
 namespace msc_vo {
 
 namespace {
@@ -44,6 +46,17 @@ bool NaturalLess(const std::string& a, const std::string& b) {
   const size_t left_a = a.size() - i;
   const size_t left_b = b.size() - j;
   return left_a != left_b ? left_a < left_b : a < b;  // "01" and "1" need some fixed order
+}
+
+void SortNames(std::vector<std::string>* names) {
+  const bool same_length = std::all_of(names->begin(), names->end(), [&](const std::string& name) {
+    return name.size() == names->front().size();
+  });
+  if (same_length) {
+    std::sort(names->begin(), names->end());
+  } else {
+    std::sort(names->begin(), names->end(), NaturalLess);
+  }
 }
 
 NameParts SplitName(const std::string& stem) {

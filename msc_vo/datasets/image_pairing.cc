@@ -18,13 +18,17 @@ namespace msc_vo {
 
 namespace {
 
-// `delay`: seconds from the colour image to the depth image.
-void AddPair(const ListedImage& color, const ListedImage& depth, double delay,
+// Adds the pair of images at these positions of the lists. `delay`: seconds from the colour image
+// to the depth image.
+void AddPair(const ImageLists& images, size_t color_rank, size_t depth_rank, double delay,
              SequenceIndex* index) {
+  const ListedImage& color = images.color[color_rank];
+  const ListedImage& depth = images.depth[depth_rank];
   const bool same_row = color.origin == depth.origin;
   index->entries.push_back({color.stamp, color.path, depth.path,
                             same_row ? color.origin : color.origin + " and " + depth.origin, delay,
-                            color.index, depth.index});
+                            color.index, depth.index, static_cast<int>(color_rank),
+                            static_cast<int>(depth_rank)});
 }
 
 // Warns if one list begins and ends later than the other by the same time. Recordings may differ at
@@ -62,10 +66,11 @@ void PairByTime(const ImageLists& images, double max_difference, SequenceIndex* 
       AssociateStamps(TimestampsOf(images.color, &ListedImage::stamp),
                       TimestampsOf(images.depth, &ListedImage::stamp), max_difference);
   for (const StampMatch& match : matches) {
-    const ListedImage& color = images.color[match.reference];
-    const ListedImage& depth = images.depth[match.query];
-    AddPair(color, depth, depth.stamp - color.stamp, index);
+    const double delay = images.depth[match.query].stamp - images.color[match.reference].stamp;
+    AddPair(images, match.reference, match.query, delay, index);
   }
+  index->num_color = images.color.size();
+  index->num_depth = images.depth.size();
   index->num_listed = std::min(images.color.size(), images.depth.size());
   const size_t num_unpaired = images.color.size() - matches.size();
   if (matches.empty() && index->num_listed > 0) {
@@ -87,7 +92,7 @@ void PairByRow(const ImageLists& images, SequenceIndex* index) {
   constexpr double kRounding = 1e-6;  // seconds, of stamps since 1970
   const double max_difference = MaxPairDifference(images);
   const size_t num_rows = images.color.size();
-  index->num_listed = num_rows;
+  index->num_listed = index->num_color = index->num_depth = num_rows;
   const auto delay = [&](size_t i) { return images.depth[i].stamp - images.color[i].stamp; };
   std::vector<double> agreeing;  // delays
   for (size_t i = 0; i < num_rows; ++i) {
@@ -101,7 +106,7 @@ void PairByRow(const ImageLists& images, SequenceIndex* index) {
     const bool is_apart = std::abs(delay(i) - usual) > max_difference + kRounding;
     if (is_apart) apart.push_back(i);
     if (same_clock && is_apart) continue;
-    AddPair(images.color[i], images.depth[i], same_clock ? delay(i) : 0.0, index);
+    AddPair(images, i, i, same_clock ? delay(i) : 0.0, index);
   }
   if (!apart.empty() && apart.size() < num_rows) {
     const size_t first = apart.front();

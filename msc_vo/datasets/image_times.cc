@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <optional>
 #include <stdexcept>
 
@@ -35,16 +36,64 @@ bool AreNumbered(const std::vector<TextLine>& lines) {
   return lines.size() > 1;
 }
 
-void SetTimes(const std::vector<double>& times, SequenceIndex* index) {
-  for (size_t i = 0; i < times.size(); ++i) index->entries[i].timestamp = times[i];
+// The row of each entry in a file with one for each colour image, each depth image or each pair;
+// none if it has another number of rows.
+std::optional<std::vector<size_t>> RowsOf(size_t num_rows, const SequenceIndex& index) {
+  std::vector<size_t> rows;
+  for (const SequenceEntry& entry : index.entries) {
+    if (num_rows == index.num_color && entry.color_rank >= 0) {
+      rows.push_back(static_cast<size_t>(entry.color_rank));
+    } else if (num_rows == index.num_depth && entry.depth_rank >= 0) {
+      rows.push_back(static_cast<size_t>(entry.depth_rank));
+    } else {
+      rows.push_back(rows.size());
+    }
+  }
+  const bool fits =
+      std::all_of(rows.begin(), rows.end(), [&](size_t row) { return row < num_rows; });
+  if (rows.empty() || !fits) return std::nullopt;
+  if (num_rows != index.num_color && num_rows != index.num_depth && num_rows != rows.size()) {
+    return std::nullopt;
+  }
+  return rows;
+}
+
+// "6 pairs of images (7 colour, 6 depth)"
+std::string DescribeCounts(const SequenceIndex& index) {
+  return FormatText("%zu pairs of images (%zu colour, %zu depth)", index.entries.size(),
+                    index.num_color, index.num_depth);
+}
+
+// Sets the time of each entry to that of its row.
+void SetTimes(const std::vector<double>& times, const std::vector<size_t>& rows,
+              SequenceIndex* index) {
+  for (size_t i = 0; i < rows.size(); ++i) index->entries[i].timestamp = times[rows[i]];
   index->has_assumed_times = false;
 }
 
-// Seconds from each image to its pose.
-std::vector<double> DifferencesOf(const std::vector<double>& times, const SequenceIndex& index) {
+// Tests whether almost all poses within the time range of the images are at the time of an image.
+bool AreAtTimesOfImages(const SequenceIndex& index) {
+  constexpr double kAlmostAll = 0.9;
+  std::vector<double> images = TimestampsOf(index.entries, &SequenceEntry::timestamp);
+  std::sort(images.begin(), images.end());
+  size_t num_within = 0, num_equal = 0;
+  for (const TimedPose& pose : index.ground_truth) {
+    const double time = pose.timestamp;
+    if (time < images.front() - kTimeRounding || time > images.back() + kTimeRounding) continue;
+    ++num_within;
+    const auto next = std::lower_bound(images.begin(), images.end(), time - kTimeRounding);
+    if (next != images.end() && *next <= time + kTimeRounding) ++num_equal;
+  }
+  return num_within > 1 &&
+         static_cast<double>(num_equal) >= kAlmostAll * static_cast<double>(num_within);
+}
+
+// Seconds from each image to the time of its row.
+std::vector<double> DifferencesOf(const std::vector<double>& times, const std::vector<size_t>& rows,
+                                  const SequenceIndex& index) {
   std::vector<double> differences;
-  for (size_t i = 0; i < times.size(); ++i) {
-    differences.push_back(times[i] - index.entries[i].timestamp);
+  for (size_t i = 0; i < rows.size(); ++i) {
+    differences.push_back(times[rows[i]] - index.entries[i].timestamp);
   }
   return differences;
 }
@@ -57,10 +106,18 @@ std::string FindTimesFile(const std::string& directory) {
 
 std::vector<double> ReadTimesFile(const std::string& path) {
   std::vector<TextLine> lines = ReadTextLines(path);
-  const size_t column = AreNumbered(lines) ? 1 : 0;
+  const auto has_number = [](const TextLine& line) {
+    return std::any_of(line.fields.begin(), line.fields.end(),
+                       [](const std::string& field) { return ParseNumber(field).has_value(); });
+  };
+  if (!lines.empty() && !has_number(lines.front())) lines.erase(lines.begin());  // a header
+  const bool begin_with_name = !lines.empty() && lines.front().fields.size() > 1 &&
+                               !ParseNumber(lines.front().fields.front());
+  const size_t column = begin_with_name || AreNumbered(lines) ? 1 : 0;
   RestoreFractions(column, &lines);
   std::vector<double> times;
   for (const TextLine& line : lines) {
+    if (line.fields.size() <= column) line.Fail("has no time; correct the line");
     const std::string& field = line.fields[column];
     const std::optional<double> time = ParseNumber(field);
     if (!time || !std::isfinite(*time)) line.Fail("'" + field + "' is no time; correct the line");
@@ -72,52 +129,81 @@ std::vector<double> ReadTimesFile(const std::string& path) {
   return times;
 }
 
-void AdoptTimesOfFile(const std::string& directory, SequenceIndex* index) {
-  const std::string path = FindTimesFile(directory);
+void AdoptTimesOfFile(const std::string& path, SequenceIndex* index) {
   if (path.empty() || !index->has_assumed_times) return;
   std::string problem;
   try {
     const std::vector<double> times = ReadTimesFile(path);
-    if (times.size() == index->entries.size()) return SetTimes(times, index);
-    problem = path + FormatText(": has %zu times for %zu pairs of images", times.size(),
-                                index->entries.size());
+    const auto rows = RowsOf(times.size(), *index);
+    if (rows) return SetTimes(times, *rows, index);
+    problem = path + FormatText(": has %zu times for ", times.size()) + DescribeCounts(*index);
   } catch (const std::runtime_error& error) {
     problem = error.what();
   }
   index->warnings.push_back(problem + "; the file is not used");
 }
 
-void AdoptTimesOfTruth(const std::string& name, SequenceIndex* index) {
+void AdoptTimesOfTruth(const std::string& name, const std::vector<double>& times,
+                       SequenceIndex* index) {
   if (!index->has_assumed_times || index->ground_truth.empty() || index->entries.empty()) return;
   OrderEntries(index);
-  const std::vector<double> times = TimestampsOf(index->ground_truth, &TimedPose::timestamp);
-  const size_t num_images = index->entries.size();
-  if (times.size() != num_images) {
+  const auto rows = RowsOf(times.size(), *index);
+  if (!rows) {
+    if (AreAtTimesOfImages(*index)) return;
+    index->ground_truth.clear();
     index->warnings.push_back(
-        name + FormatText(": has %zu poses for %zu images, whose times are assumed; if their rate "
-                          "is wrong, so are the errors: write times.txt with a line for each image",
-                          times.size(), num_images));
+        name + FormatText(": has %zu poses for ", times.size()) + DescribeCounts(*index) +
+        ", whose times are not known; the ground truth is left out, because errors at assumed "
+        "times would be wrong: write times.txt with a line for each colour image");
     return;
   }
   double largest = 0.0;
-  for (const double difference : DifferencesOf(times, *index)) {
+  for (const double difference : DifferencesOf(times, *rows, *index)) {
     largest = std::max(largest, std::abs(difference));
   }
   const bool ascend =
       std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
   if (largest <= kTimeRounding || !ascend) return;
-  SetTimes(times, index);
+  SetTimes(times, *rows, index);
   index->warnings.push_back(
       name + FormatText(": the images, which have no times of their own, get those of the poses, "
                         "%.3g per second, image by image",
                         1.0 / MedianInterval(times)));
 }
 
+void AssignPosesInOrder(const std::string& name, TrajectoryFile file, SequenceIndex* index) {
+  const size_t num_rows = file.poses.size() + static_cast<size_t>(file.num_left_out);
+  OrderEntries(index);
+  const auto rows = RowsOf(num_rows, *index);
+  if (!rows) {
+    index->warnings.push_back(name +
+                              FormatText(": has %zu poses without time stamps for ", num_rows) +
+                              DescribeCounts(*index) +
+                              "; the ground truth is left out: write "
+                              "'time tx ty tz qx qy qz qw' rows");
+    return;
+  }
+  std::map<size_t, double> times;  // of the rows
+  for (size_t i = 0; i < rows->size(); ++i) times[(*rows)[i]] = index->entries[i].timestamp;
+  for (TimedPose& pose : file.poses) {
+    const auto time = times.find(static_cast<size_t>(pose.timestamp));
+    if (time == times.end()) continue;  // an image without a partner
+    pose.timestamp = time->second;
+    index->ground_truth.push_back(pose);
+  }
+  index->warnings.push_back(name +
+                            ": the poses have no time stamps; they are assigned to the "
+                            "images in their order");
+}
+
 void CheckTimesOfTruth(const std::string& name, SequenceIndex* index) {
   OrderEntries(index);
   const std::vector<double> times = TimestampsOf(index->ground_truth, &TimedPose::timestamp);
   if (times.size() != index->entries.size() || times.empty()) return;
-  const std::vector<double> differences = DifferencesOf(times, *index);
+  std::vector<double> differences;
+  for (size_t i = 0; i < times.size(); ++i) {
+    differences.push_back(times[i] - index->entries[i].timestamp);
+  }
   const auto [least, most] = std::minmax_element(differences.begin(), differences.end());
   if (*most - *least > kTimeRounding || std::abs(*most) <= kTimeRounding) return;
   index->warnings.push_back(

@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "msc_vo/datasets/image_list.h"
+#include "msc_vo/datasets/image_name.h"
 #include "msc_vo/datasets/image_pairing.h"
 #include "msc_vo/datasets/named_images.h"
 #include "msc_vo/datasets/sequence_format.h"
@@ -138,6 +139,57 @@ bool HaveSeparateNumbers(const NamedImages& color, const NamedImages& depth) {
       color.description.c_str(), depth.description.c_str()));
 }
 
+std::string StemOf(const std::string& path) { return std::filesystem::path(path).stem().string(); }
+
+std::map<std::string, std::string> PathsByStem(const std::vector<std::string>& paths) {
+  std::map<std::string, std::string> path_of_stem;
+  for (const std::string& path : paths) path_of_stem.emplace(StemOf(path), path);
+  return path_of_stem;
+}
+
+// Tests whether names that differ in pattern from most, and whose images were left out, belong to
+// pairs of equal names: then the names are no numbers.
+bool LeavesOutPairs(const std::vector<std::string>& color_paths,
+                    const std::vector<std::string>& depth_paths, const NamedImages& color) {
+  constexpr double kMaxRatio = 0.1;
+  const auto depth_of_stem = PathsByStem(depth_paths), kept = PathsByStem(color.paths);
+  const auto num_left_out =
+      std::count_if(color_paths.begin(), color_paths.end(), [&](const std::string& path) {
+        return kept.count(StemOf(path)) == 0 && depth_of_stem.count(StemOf(path)) > 0;
+      });
+  return static_cast<double>(num_left_out) > kMaxRatio * static_cast<double>(color_paths.size());
+}
+
+// Pairs images whose names are equal, in the order of these at kDefaultFrameRate, if most images of
+// a stream have such a partner; returns whether they do.
+bool PairedByStem(const std::vector<std::string>& color_paths,
+                  const std::vector<std::string>& depth_paths, SequenceIndex* index) {
+  std::vector<std::string> stems;
+  const auto color_of_stem = PathsByStem(color_paths), depth_of_stem = PathsByStem(depth_paths);
+  for (const auto& [stem, path] : color_of_stem) stems.push_back(stem);
+  for (const auto& [stem, path] : depth_of_stem) {
+    if (color_of_stem.count(stem) == 0) stems.push_back(stem);
+  }
+  const size_t num_pairs = color_of_stem.size() + depth_of_stem.size() - stems.size();
+  if (2 * num_pairs <= std::min(color_paths.size(), depth_paths.size())) return false;
+  SortNames(&stems);
+  for (size_t i = 0; i < stems.size(); ++i) {
+    const auto color = color_of_stem.find(stems[i]), depth = depth_of_stem.find(stems[i]);
+    if (color == color_of_stem.end() || depth == depth_of_stem.end()) continue;
+    index->entries.push_back({i / kDefaultFrameRate, color->second, depth->second, ""});
+  }
+  index->has_assumed_times = true;
+  const size_t num_unpaired = color_paths.size() + depth_paths.size() - 2 * num_pairs;
+  index->warnings.push_back(
+      FormatText(
+          "images of the same name are paired, in the order of the names, at %.0f per second",
+          kDefaultFrameRate) +
+      (num_unpaired == 0
+           ? ""
+           : FormatText("; %zu images without a partner are left out", num_unpaired)));
+  return true;
+}
+
 // Pairs images at the same position of both lists, at kDefaultFrameRate.
 void PairByPosition(const NamedImages& color, const NamedImages& depth, SequenceIndex* index) {
   const bool have_times =
@@ -162,14 +214,10 @@ std::optional<TimeRange> RangeOfTimes(const NamedImages& images) {
   return RangeOf(images.times, images.unit);
 }
 
-}  // namespace
-
-void PairByName(const std::vector<std::string>& color_paths,
-                const std::vector<std::string>& depth_paths, SequenceIndex* index) {
-  if (color_paths.empty() || depth_paths.empty()) return;
-  const NamedImages color = ReadImageNames(color_paths);
-  const NamedImages depth = ReadImageNames(depth_paths, RangeOfTimes(color));
-  const size_t num_listed = std::min(color_paths.size(), depth_paths.size());
+// Pairs the images by what their names hold. The paths are those of all images of the streams.
+void PairByContents(const NamedImages& color, const NamedImages& depth,
+                    const std::vector<std::string>& color_paths,
+                    const std::vector<std::string>& depth_paths, SequenceIndex* index) {
   for (const std::string& warning : color.warnings) {
     index->warnings.push_back("colour images: " + warning);
   }
@@ -178,11 +226,41 @@ void PairByName(const std::vector<std::string>& color_paths,
   }
   const bool may_be_numbers =
       color.certainty != NamedTimes::kCertain && depth.certainty != NamedTimes::kCertain;
-  const bool paired = (!may_be_numbers && PairedByTime(color, depth, index)) ||
-                      PairedByNumber(color, depth, index) ||
-                      (may_be_numbers && PairedByTime(color, depth, index));
-  if (!paired) PairByPosition(color, depth, index);
-  index->num_listed = num_listed;
+  if (!may_be_numbers && PairedByTime(color, depth, index)) return;
+  if (PairedByNumber(color, depth, index)) return;
+  if (may_be_numbers && PairedByTime(color, depth, index)) return;
+  const bool hold_nothing = color.times.empty() && color.numbers.empty();
+  if (hold_nothing && PairedByStem(color_paths, depth_paths, index)) return;
+  PairByPosition(color, depth, index);
+}
+
+void SetRanks(const std::vector<std::string>& color_paths,
+              const std::vector<std::string>& depth_paths, SequenceIndex* index) {
+  std::map<std::string, int> ranks;
+  for (const std::vector<std::string>* paths : {&color_paths, &depth_paths}) {
+    for (size_t i = 0; i < paths->size(); ++i) ranks[(*paths)[i]] = static_cast<int>(i);
+  }
+  for (SequenceEntry& entry : index->entries) {
+    entry.color_rank = ranks.at(entry.color_path);
+    entry.depth_rank = ranks.at(entry.depth_path);
+  }
+  index->num_color = color_paths.size();
+  index->num_depth = depth_paths.size();
+}
+
+}  // namespace
+
+void PairByName(const std::vector<std::string>& color_paths,
+                const std::vector<std::string>& depth_paths, SequenceIndex* index) {
+  if (color_paths.empty() || depth_paths.empty()) return;
+  const NamedImages color = ReadImageNames(color_paths);
+  const NamedImages depth = ReadImageNames(depth_paths, RangeOfTimes(color));
+  if (!LeavesOutPairs(color_paths, depth_paths, color) ||
+      !PairedByStem(color_paths, depth_paths, index)) {
+    PairByContents(color, depth, color_paths, depth_paths, index);
+  }
+  index->num_listed = std::min(color_paths.size(), depth_paths.size());
+  SetRanks(color_paths, depth_paths, index);
 }
 
 }  // namespace msc_vo

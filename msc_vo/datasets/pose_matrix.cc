@@ -23,6 +23,9 @@ Eigen::MatrixXd ReadMatrix(const std::string& path, int rows, int columns) {
       values.push_back(*value);
     }
   }
+  if (rows == 4 && columns == 4 && values.size() == 12) {
+    values.insert(values.end(), {0.0, 0.0, 0.0, 1.0});
+  }
   if (values.size() != static_cast<size_t>(rows) * columns) {
     throw std::runtime_error(path + ": expected " + std::to_string(rows) + " x " +
                              std::to_string(columns) + " numbers, found " +

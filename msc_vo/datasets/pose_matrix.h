@@ -15,9 +15,9 @@
 
 namespace msc_vo {
 
-/// Reads a text file with rows x columns numbers as a matrix, row by row. Numbers may be "nan" or
-/// "inf". Throws std::runtime_error, naming the file, if the count of numbers differs or a field is
-/// not a number.
+/// Reads a text file with rows x columns numbers as a matrix, row by row; the last row of a 4x4
+/// matrix may be missing and then is 0 0 0 1. Numbers may be "nan" or "inf". Throws
+/// std::runtime_error, naming the file, if the count of numbers differs or a field is not a number.
 Eigen::MatrixXd ReadMatrix(const std::string& path, int rows, int columns);
 
 /// Converts a 4x4 matrix [R t; 0 1] to a transform with the rotation nearest to R. None if a number

@@ -54,14 +54,22 @@ Eigen::Quaterniond QuaternionOf(const std::array<double, 9>& values) {
   return {values[8], values[5], values[6], values[7]};
 }
 
-// Whether all rows have the columns, and quaternions in them.
+// Tests for a row without a pose, as programs write for lost frames.
+bool IsLost(const std::array<double, 9>& values) {
+  return !IsFinite(values) || QuaternionOf(values).coeffs().isZero(0.0);
+}
+
+// Whether the row has the columns, and a quaternion in them.
+bool Fits(const PoseColumns& columns, const TextLine& line) {
+  std::string ignored;
+  if (line.fields.size() < columns.MinColumns()) return false;
+  const auto values = ParseRow(line, columns, &ignored);
+  return values && (IsLost(*values) || IsUnitQuaternion(QuaternionOf(*values).coeffs()));
+}
+
 bool Fits(const PoseColumns& columns, const std::vector<TextLine>& rows) {
-  return std::all_of(rows.begin(), rows.end(), [&](const TextLine& line) {
-    std::string ignored;
-    if (line.fields.size() < columns.MinColumns()) return false;
-    const auto values = ParseRow(line, columns, &ignored);
-    return values && (!IsFinite(*values) || IsUnitQuaternion(QuaternionOf(*values).coeffs()));
-  });
+  return std::all_of(rows.begin(), rows.end(),
+                     [&](const TextLine& line) { return Fits(columns, line); });
 }
 
 // The finite numbers of a column; empty if a row has no number there.
@@ -179,6 +187,11 @@ std::vector<PoseColumns> UnnamedCandidates(const std::vector<TextLine>& rows,
       (AreFrameNumbers(second) && !AreFrameNumbers(first))) {
     numbered.time = 0;
   }
+  if (!format && rows.front().fields.size() < kFieldsPerPose) {  // no time stamps
+    PoseColumns timeless = Moved(columns, 1, 0);
+    timeless.time.reset();
+    return {columns, timeless};
+  }
   const bool is_long = rows.front().fields.size() >= numbered.MinColumns();
   if (is_long && is_date(second) && !is_date(first)) return {numbered, columns};
   return {columns, numbered};
@@ -220,6 +233,13 @@ class TableReader {
     if (columns_.time && !columns_.nanoseconds) RestoreFractions(*columns_.time, &rows_);
   }
 
+  // Whether at most half of the rows do not fit, so that these are damaged.
+  bool MostRowsFit() const {
+    const auto num_fitting = std::count_if(
+        rows_.begin(), rows_.end(), [&](const TextLine& line) { return Fits(columns_, line); });
+    return 2 * static_cast<size_t>(num_fitting) >= rows_.size();
+  }
+
   TrajectoryFile Read() {
     TrajectoryFile file;
     file.format = IsScalarFirst(columns_) ? TrajectoryFormat::kEuroc : TrajectoryFormat::kTum;
@@ -231,11 +251,12 @@ class TableReader {
     std::vector<std::string> stamps;
     for (size_t row = 0; row < rows_.size(); ++row) {
       ReadPoseComment(rows_[row].comment, &pose);
-      if (!ReadRow(rows_[row], rate, &pose)) {
-        ++file.num_left_out;
+      const bool has_pose = ReadRow(rows_[row], rate, &pose);
+      if (!file.has_stamps) pose.timestamp = static_cast<double>(row);
+      if (!has_pose) {
+        file.LeaveOut(pose.timestamp);
         continue;
       }
-      if (!file.has_stamps) pose.timestamp = static_cast<double>(row);
       if (columns_.time) stamps.push_back(rows_[row].fields[*columns_.time]);
       file.poses.push_back(pose);
     }
@@ -245,21 +266,21 @@ class TableReader {
   }
 
  private:
-  // Returns false if a number is not finite.
+  // Sets the time, and the pose if the row holds one; returns whether it does.
   bool ReadRow(const TextLine& line, double rate, TimedPose* pose) const {
     CheckNumFields(line);
     std::string field;
     const auto values = ParseRow(line, columns_, &field);
     if (!values) line.Fail("'" + field + "' is not a number; correct or remove the line");
-    if (!IsFinite(*values)) return false;
-    const Eigen::Quaterniond rotation = QuaternionOf(*values);
-    if (!IsUnitQuaternion(rotation.coeffs())) FailQuaternion(line, rotation.norm());
     const std::array<double, 9>& v = *values;
+    pose->timestamp = v[0] / rate + v[1] / UnitsPerSecond(TimeUnit::kNanoseconds);
+    if (IsLost(v)) return false;
+    const Eigen::Quaterniond rotation = QuaternionOf(v);
+    if (!IsUnitQuaternion(rotation.coeffs())) FailQuaternion(line, rotation.norm());
     if (v[1] < 0.0 || v[1] >= UnitsPerSecond(TimeUnit::kNanoseconds)) {
       line.Fail(FormatNumber(v[1]) +
                 " is not the nanoseconds after a whole second; name only one column of time");
     }
-    pose->timestamp = v[0] / rate + v[1] / UnitsPerSecond(TimeUnit::kNanoseconds);
     pose->world_from_cam =
         Rigid3(rotation.normalized(), columns_.metres * Eigen::Vector3d(v[2], v[3], v[4]));
     return true;
@@ -344,8 +365,9 @@ PoseRows ReadPoseRows(const std::string& path, bool any_header) {
     if (!columns && !nameless && fields[0][0] != '%') nameless = {path, number, fields, ""};
   }
   if (nameless && !table.named && !any_header) {
-    nameless->Fail(std::string("names no columns of a trajectory; name them as in ") + kTumColumns +
-                   ", or begin the line with #");
+    throw NotATrajectory(nameless->Where() +
+                         ": names no columns of a trajectory; name them as in " + kTumColumns +
+                         ", or begin the line with #");
   }
   for (TextLine& line : ReadTextLines(path)) {
     if (line.number > header_end) table.rows.push_back(std::move(line));
@@ -359,7 +381,13 @@ TrajectoryFile ReadPoseTable(PoseRows rows, std::optional<TrajectoryFormat> form
     file.format = format.value_or(TrajectoryFormat::kTum);
     return file;
   }
-  return TableReader(std::move(rows), format).Read();
+  TableReader reader(std::move(rows), format);
+  try {
+    return reader.Read();
+  } catch (const std::runtime_error& error) {
+    if (reader.MostRowsFit()) throw;
+    throw NotATrajectory(error.what());
+  }
 }
 
 }  // namespace msc_vo

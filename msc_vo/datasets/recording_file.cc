@@ -41,6 +41,9 @@ constexpr FileKind kKinds[] = {
     {"", 0, " .sens ", "a recording of ScanNet",
      "export its colour and depth images, poses and intrinsics with ScanNet's SensReader, and give "
      "the folder"},
+    {"", 0, " .r3d ", "a recording of Record3D",
+     "its depth has a format of its own: export it in Record3D as RGBD with depth images (EXR + "
+     "JPG), and give the folder that holds them as rgb/ and depth/"},
     {"", 0, " .klg ", "a log of Kintinuous or ElasticFusion", kExport},
     {"", 0, " .npz .npy .pkl .mat ", "a file of arrays", kExport},
     {"SQLite format 3\0"sv, 0, "", "an SQLite database, as a bag of ROS 2", kCommandReads},

@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
 // Replica, as rendered for NICE-SLAM: results/frameXXXXXX.jpg, results/depthXXXXXX.png, traj.txt
-// with one 4x4 matrix world_from_cam per row; row i is that of frame i.
+// with one 4x4 matrix world_from_cam per row; row i is that of frame i; cam_params.json here or in
+// the parent folder.
 
 #include <cstdint>
 #include <map>
@@ -10,12 +11,12 @@
 #include <string>
 #include <vector>
 
+#include "msc_vo/datasets/folder_camera.h"
 #include "msc_vo/datasets/image_folder.h"
 #include "msc_vo/datasets/name_pairing.h"
 #include "msc_vo/datasets/named_images.h"
 #include "msc_vo/datasets/pose_matrix.h"
 #include "msc_vo/datasets/sequence_format.h"
-#include "msc_vo/datasets/tum_folder.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
@@ -103,6 +104,7 @@ SequenceIndex Read(const std::string& directory) {
   const std::string poses = PathIn(directory, "traj.txt");
   if (HasEntry(poses)) ReadPoses(poses, ReadImageNames(color), &index);
   ReadFolderCamera(directory, &index);
+  ReadOtherCamera(directory, {6553.5}, &index);
   return index;
 }
 

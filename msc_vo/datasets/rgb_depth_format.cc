@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-// Two folders of images without lists: rgb/ (or color/, colour/, image/, images/) and depth/.
+// Two folders of images without lists, see FindColorFolder() and FindDepth().
 
 #include <algorithm>
 #include <stdexcept>
@@ -10,24 +10,18 @@
 
 #include "msc_vo/datasets/camera_preset.h"
 #include "msc_vo/datasets/depth_folder.h"
+#include "msc_vo/datasets/folder_camera.h"
 #include "msc_vo/datasets/image_folder.h"
 #include "msc_vo/datasets/image_times.h"
 #include "msc_vo/datasets/name_pairing.h"
 #include "msc_vo/datasets/sequence_format.h"
+#include "msc_vo/datasets/stream_times.h"
 #include "msc_vo/datasets/tum_folder.h"
 #include "msc_vo/text/files.h"
 
 namespace msc_vo {
 
 namespace {
-
-std::string ColorFolder(const std::string& directory) {
-  for (const char* name : {"rgb", "color", "colour", "image", "images"}) {
-    std::string folder = PathIn(directory, name);
-    if (IsFolder(folder)) return folder;
-  }
-  return "";
-}
 
 // Names a file of a folder without images; "" if there is no folder.
 std::string OtherFile(const std::string& folder) {
@@ -39,22 +33,35 @@ std::string OtherFile(const std::string& folder) {
 }
 
 bool Recognises(const std::string& directory) {
-  return !ListImages(ColorFolder(directory)).empty() && IsFolder(FindDepth(directory, ""));
+  return !ListImages(FindColorFolder(directory)).empty() && IsFolder(FindDepth(directory, ""));
+}
+
+// Pairs the images, and finds their times.
+void PairImages(const std::string& directory, const std::vector<std::string>& color,
+                const std::vector<std::string>& depth, SequenceIndex* index) {
+  const std::string both = FindTimesFile(directory);
+  const std::string of_color = FindStreamTimes(FindColorFolder(directory));
+  const std::string of_depth = FindStreamTimes(FindDepth(directory, ""));
+  if (PairedByStreamTimes(of_color.empty() ? both : of_color, color, of_depth, depth, index)) {
+    return;
+  }
+  PairByName(color, depth, index);
+  OrderEntries(index);
+  for (const std::string& path : {both, of_color, of_depth}) AdoptTimesOfFile(path, index);
+  if (index->has_assumed_times) WarnOfUnusedTimes(directory, {both, of_color, of_depth}, index);
 }
 
 SequenceIndex Read(const std::string& directory) {
   SequenceIndex index;
-  const std::vector<std::string> color = ListImages(ColorFolder(directory));
+  const std::vector<std::string> color = ListImages(FindColorFolder(directory));
   const std::vector<std::string> depth = ListImages(FindDepth(directory, "", &index.warnings));
   if (color.empty() || depth.empty()) {
     throw std::runtime_error(
         directory + ": needs images in rgb/ and in depth/; found " + std::to_string(color.size()) +
         " and " + std::to_string(depth.size()) +
-        OtherFile(color.empty() ? ColorFolder(directory) : FindDepth(directory, "")));
+        OtherFile(color.empty() ? FindColorFolder(directory) : FindDepth(directory, "")));
   }
-  PairByName(color, depth, &index);
-  OrderEntries(&index);
-  AdoptTimesOfFile(directory, &index);
+  PairImages(directory, color, depth, &index);
   ReadTumGroundTruth(directory, WholeStamps::kFrameNumbers, &index);
   ReadFolderCamera(directory, &index);
   index.preset = GuessCameraPreset(directory);

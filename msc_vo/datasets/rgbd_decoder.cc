@@ -292,10 +292,12 @@ cv::Mat RgbdDecoder::DecodeDepth(const StoredImage& stored, const SequenceEntry&
 
 void RgbdDecoder::CheckDepthType(const cv::Mat& depth, const SequenceEntry& entry) const {
   if (depth.type() == CV_16UC1 || depth.type() == CV_32FC1) return;
+  const bool may_be_measured = depth.channels() == 1 && depth.elemSize1() > 1;
   Fail(entry.depth_path, entry,
        "has " + TypeText(depth) +
-           "; depth images need 1 channel of unsigned 16 bits or of floating-point numbers (a "
-           "visualisation of the depth does not contain the measurements)");
+           "; depth images need 1 channel of unsigned 16 bits or of floating-point numbers" +
+           (may_be_measured ? "; convert them"
+                            : " (a visualisation of the depth does not contain the measurements)"));
 }
 
 void RgbdDecoder::CheckDepthSize(const cv::Mat& depth, const ImageSize& color,

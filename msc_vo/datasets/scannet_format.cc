@@ -6,16 +6,21 @@
 // intrinsic_depth.txt (4x4).
 
 #include <filesystem>
+#include <optional>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
+#include "msc_vo/datasets/folder_camera.h"
 #include "msc_vo/datasets/image_folder.h"
 #include "msc_vo/datasets/image_size_fit.h"
+#include "msc_vo/datasets/intrinsics_file.h"
 #include "msc_vo/datasets/name_pairing.h"
 #include "msc_vo/datasets/pose_matrix.h"
 #include "msc_vo/datasets/sequence_calibration.h"
 #include "msc_vo/datasets/sequence_format.h"
-#include "msc_vo/datasets/tum_folder.h"
 #include "msc_vo/text/files.h"
+#include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
 
@@ -24,9 +29,9 @@ namespace fs = std::filesystem;
 namespace {
 
 bool Recognises(const std::string& directory) {
-  const auto has_folder = [&](const char* name) { return IsFolder(PathIn(directory, name)); };
+  const auto has_folder = [&](const char* name) { return IsFolder(FindEntry(directory, name)); };
   return has_folder("color") && has_folder("depth") &&
-         (has_folder("pose") || has_folder("intrinsic"));
+         (has_folder("pose") || has_folder("intrinsic") || has_folder("intrinsics"));
 }
 
 std::string PosePath(const SequenceEntry& entry) {
@@ -34,30 +39,64 @@ std::string PosePath(const SequenceEntry& entry) {
   return (color.parent_path().parent_path() / "pose" / (color.stem().string() + ".txt")).string();
 }
 
-// The intrinsics of images of one size, for those of another.
-PinholeCamera CameraOf(const Eigen::MatrixXd& k, const ImageSize& from, const ImageSize& to) {
-  return ScaledCamera({k(0, 0), k(1, 1), k(0, 2), k(1, 2), from.width, from.height}, to);
+// Size of the colour images that ScanNet publishes, for which it gives the intrinsics.
+constexpr ImageSize kPublishedColor = {1296, 968};
+
+// Reads a file of intrinsics; the size of the camera is that of the sizes whose centre fits, or 0.
+// None if there is no such file. Throws std::runtime_error if it holds no camera matrix.
+std::optional<GivenIntrinsics> ReadCamera(const std::string& path,
+                                          const std::vector<ImageSize>& sizes) {
+  if (path.empty()) return std::nullopt;
+  std::optional<GivenIntrinsics> given = ReadIntrinsicsFile(path);
+  if (!given) {
+    throw std::runtime_error(path +
+                             ": holds no camera matrix; write the rows 'fx 0 cx', '0 fy cy' "
+                             "and '0 0 1'");
+  }
+  const ImageSize size = FindSizeOf(given->camera, sizes).value_or(ImageSize());
+  given->camera.width = size.width;
+  given->camera.height = size.height;
+  return given;
 }
 
-void ReadIntrinsics(const fs::path& folder, SequenceIndex* index) {
-  ReadFolderCamera(folder.string(), index);
-  if (index->calibration || index->entries.empty()) return;
+// Warns if the intrinsics are those of images of another size than `size`.
+void CheckSize(const GivenIntrinsics& given, const ImageSize& size, SequenceIndex* index) {
+  if (given.camera.width == size.width && given.camera.height == size.height) return;
+  index->warnings.push_back(
+      given.path + FormatText(": cx and cy are those of images of %dx%d; the camera is scaled to "
+                              "the colour images of %dx%d",
+                              given.camera.width, given.camera.height, size.width, size.height));
+}
+
+void ReadIntrinsics(const std::string& directory, SequenceIndex* index) {
+  ReadFolderCamera(directory, index);
+  const std::string folder = FirstEntry(directory, {"intrinsic", "intrinsics"});
+  if (index->calibration || index->entries.empty() || folder.empty()) return;
   const ImageSize color = FirstImageSize(*index, ImageKind::kColor);
   const ImageSize depth = FirstImageSize(*index, ImageKind::kDepth);
-  const std::string color_file = (folder / "intrinsic" / "intrinsic_color.txt").string();
-  const std::string depth_file = (folder / "intrinsic" / "intrinsic_depth.txt").string();
+  const auto of_color =
+      ReadCamera(FindEntry(folder, "intrinsic_color.txt"), {color, kPublishedColor});
+  const auto of_depth = ReadCamera(FindEntry(folder, "intrinsic_depth.txt"), {depth});
   Calibration calibration;
   calibration.depth_scale = 1000.0;  // millimetres
-  if (HasEntry(color_file)) {
+  if (of_color && of_color->camera.width > 0) {
+    CheckSize(*of_color, color, index);
     // Depth of another shape is not registered to colour: without a description of its camera,
     // decoding refuses it.
     index->scale_color = HaveSimilarShape(color, depth);
-    calibration.camera =
-        CameraOf(ReadMatrix(color_file, 4, 4), color, index->scale_color ? depth : color);
-    calibration.origin = color_file;
-  } else if (HasEntry(depth_file)) {
-    calibration.camera = CameraOf(ReadMatrix(depth_file, 4, 4), depth, depth);
-    calibration.origin = depth_file;
+    calibration.camera = ScaledCamera(of_color->camera, index->scale_color ? depth : color);
+    calibration.origin = of_color->path;
+  } else if (of_depth && of_depth->camera.width > 0) {
+    if (of_color) {
+      index->warnings.push_back(of_color->path + ": is of images of another size; " +
+                                of_depth->path + " is used");
+    }
+    calibration.camera = of_depth->camera;
+    calibration.origin = of_depth->path;
+  } else if (of_color || of_depth) {
+    throw std::runtime_error((of_color ? of_color : of_depth)->path +
+                             ": cx and cy are far from the centre of the images; give the "
+                             "intrinsics of their size");
   } else {
     return;
   }
@@ -67,7 +106,7 @@ void ReadIntrinsics(const fs::path& folder, SequenceIndex* index) {
 SequenceIndex Read(const std::string& directory) {
   SequenceIndex index;
   const fs::path folder = directory;
-  PairByName(ListImages((folder / "color").string()), ListImages((folder / "depth").string()),
+  PairByName(ListImages(FindEntry(directory, "color")), ListImages(FindEntry(directory, "depth")),
              &index);
   index.scale_color = true;
   ReadPoseFiles(PosePath, &index);
@@ -78,7 +117,7 @@ SequenceIndex Read(const std::string& directory) {
         "name of a colour image, such as " +
         PosePath(index.entries.front()));
   }
-  ReadIntrinsics(folder, &index);
+  ReadIntrinsics(directory, &index);
   return index;
 }
 

@@ -9,6 +9,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "msc_vo/datasets/image_folder.h"
 #include "msc_vo/datasets/recording_file.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/text/files.h"
@@ -40,6 +41,26 @@ const SequenceFormat* Recognise(const Formats& formats, const std::string& direc
   return nullptr;
 }
 
+// Says which folders within `directory` hold colour and depth images; empty unless one holds each.
+std::string DescribeImageFolders(const std::string& directory) {
+  constexpr size_t kMaxFolders = 100;
+  std::string color, depth;
+  std::vector<std::string> folders = {directory};
+  for (size_t i = 0; i < folders.size() && i < kMaxFolders; ++i) {
+    const std::string folder = folders[i];
+    const FolderImages images = FindFolderImages(folder);
+    if (images == FolderImages::kColor && color.empty()) color = folder;
+    if (images == FolderImages::kDepth && depth.empty()) depth = folder;
+    if (images != FolderImages::kNone || !FolderProblem(folder).empty()) continue;
+    std::vector<std::string> entries = ListFolder(folder);
+    std::sort(entries.begin(), entries.end());
+    std::copy_if(entries.begin(), entries.end(), std::back_inserter(folders), IsFolder);
+  }
+  if (color.empty() || depth.empty()) return "";
+  return "\n" + color + " holds colour images, " + depth +
+         " depth images; move them to rgb/ and depth/ in one folder";
+}
+
 [[noreturn]] void FailUnrecognised(const Formats& formats, const std::string& directory) {
   std::string message = directory + ": no RGB-D sequence found here. Known layouts:";
   for (const SequenceFormat* format : formats) {
@@ -56,6 +77,8 @@ const SequenceFormat* Recognise(const Formats& formats, const std::string& direc
     message += "\nDid you mean " + *child + "?";
   } else if (file != entries.end()) {
     message += "\n" + *file + " " + DescribeFile(*file);
+  } else {
+    message += DescribeImageFolders(directory);
   }
   throw std::runtime_error(message);
 }

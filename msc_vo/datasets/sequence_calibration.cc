@@ -6,15 +6,21 @@
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include <opencv2/imgcodecs.hpp>
 
 #include "msc_vo/datasets/camera_file.h"
 #include "msc_vo/datasets/camera_preset.h"
+#include "msc_vo/datasets/folder_camera.h"
 #include "msc_vo/datasets/image_container.h"
 #include "msc_vo/datasets/image_size_fit.h"
+#include "msc_vo/datasets/intrinsics_file.h"
 #include "msc_vo/datasets/tum_folder.h"
 #include "msc_vo/image_files/image_file.h"
+#include "msc_vo/text/files.h"
+#include "msc_vo/text/format_text.h"
+#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 
@@ -127,7 +133,36 @@ bool IsComplete(const CameraSettings& settings) {
   return settings.fx && settings.fy && settings.cx && settings.cy && settings.depth_scale;
 }
 
-[[noreturn]] void FailWithoutCalibration(const SequenceIndex& index) {
+// Names the keys of a camera that the settings leave out.
+std::string DescribeMissing(const CameraSettings& settings) {
+  std::string missing;
+  for (const auto& [name, value] :
+       {std::pair("fx", settings.fx), std::pair("fy", settings.fy), std::pair("cx", settings.cx),
+        std::pair("cy", settings.cy), std::pair("depth_scale", settings.depth_scale)}) {
+    if (!value) missing += (missing.empty() ? "camera." : ", camera.") + std::string(name);
+  }
+  return settings.origin + ": does not give " + missing;
+}
+
+// The line of camera.txt for a calibration file near the images; its name alone if it cannot be
+// read.
+std::string DescribeCalibrationFile(const std::string& path, const SequenceIndex& index) {
+  const std::optional<GivenIntrinsics> given = ReadIntrinsicsFile(path);
+  if (!given) return path + " may describe the camera, but is in no format that is read";
+  const PinholeCamera& k = given->camera;
+  const std::string unit = given->depth_scale ? FormatNumber(*given->depth_scale) : "DEPTH_SCALE";
+  ImageSize size = {k.width, k.height};
+  if (size.width == 0) size = FirstImageSize(index, ImageKind::kColor);
+  return path + ": the line of camera.txt is '" +
+         FormatText("%s %s %s %s %d %d ", FormatNumber(k.fx).c_str(), FormatNumber(k.fy).c_str(),
+                    FormatNumber(k.cx).c_str(), FormatNumber(k.cy).c_str(), size.width,
+                    size.height) +
+         unit + "'" +
+         (given->depth_scale ? "" : " with the raw depth units per metre, 1000 for millimetres");
+}
+
+[[noreturn]] void FailWithoutCalibration(const CameraSettings& settings,
+                                         const SequenceIndex& index) {
   std::string names;
   for (const CameraPreset& preset : CameraPresets()) names += " " + preset.name;
   const std::string file =
@@ -135,18 +170,39 @@ bool IsComplete(const CameraSettings& settings) {
           ? ""
           : "  add " + index.directory + "/camera.txt with one line " + kCameraFileFormat + "\n";
   std::string reasons;
+  if (!settings.IsEmpty()) reasons += "\n" + DescribeMissing(settings);
+  for (const std::string& path : CalibrationFilesNear(index.directory)) {
+    reasons += "\n" + DescribeCalibrationFile(path, index);
+  }
   for (const std::string& warning : index.warnings) reasons += "\n" + warning;
   throw std::runtime_error(index.directory + ": the camera is not known. Do one of:\n" + file +
                            "  give --config FILE with the camera's calibration\n" +
                            "  give --camera with one of:" + names + reasons);
 }
 
-// The preset that the folder suggests, without readout time.
-Calibration GuessedPreset(const std::string& name) {
-  Calibration guess = FindCameraPreset(name).calibration;
+// Whether the folder is a sequence of the data set of the preset, not only similar to one.
+bool IsIdentified(const SequenceIndex& index) {
+  return HasPublishedName(index.directory) ||
+         (index.preset == "icl-nuim" && !FindFreiburgTruth(index.directory).empty());
+}
+
+// The preset that the folder suggests, without readout time. Adds a warning unless it is certain.
+Calibration GuessedPreset(SequenceIndex* index) {
+  Calibration guess = FindCameraPreset(index->preset).calibration;
   guess.origin += " (guessed from the folder)";
   guess.readout_time.reset();
   guess.readout_origin = Calibration::kSelfCalibrated;
+  if (IsIdentified(*index)) return guess;
+  std::string warning = "the camera is not known; that of " + index->preset +
+                        " is a guess from the names of files and folders";
+  if (guess.camera.fy < 0.0) {
+    warning += ", with fy < 0 for mirrored images: if they are not mirrored, the world is";
+  }
+  for (const std::string& path : CalibrationFilesNear(index->directory)) {
+    warning += "; " + path + " is not used";
+  }
+  index->warnings.push_back(warning + "; add camera.txt or give --camera-file, or --camera " +
+                            index->preset + " if it is right");
   return guess;
 }
 
@@ -168,15 +224,10 @@ Calibration BaseCalibration(const CameraSettings& settings, const std::string& p
     return *index->calibration;
   }
   if (!preset.empty()) return FindCameraPreset(preset).calibration;
-  if (index->preset.empty()) FailWithoutCalibration(*index);
-  const Calibration guess = GuessedPreset(index->preset);
-  if (guess.camera.fy < 0.0 && FindFreiburgTruth(index->directory).empty()) {
-    index->warnings.push_back("the images are taken for mirrored ones of " + index->preset +
-                              " with fy < 0, because their associations name depth first and "
-                              "frame numbers; if they are not, the world is mirrored: add "
-                              "camera.txt or give --camera-file");
-  }
-  return guess;
+  const bool is_described = FolderProblem(index->directory).empty() && !IsIdentified(*index) &&
+                            !FindCalibrationFiles(index->directory).empty();
+  if (index->preset.empty() || is_described) FailWithoutCalibration(settings, *index);
+  return GuessedPreset(index);
 }
 
 ImageSize ImageSizeOf(const SequenceIndex& index, const SequenceEntry& entry, ImageKind kind) {
@@ -215,11 +266,22 @@ void SetMissingSize(const std::optional<ImageSize>& size, const SequenceIndex& i
   camera->height = known.height;
 }
 
+// Colour is scaled to the size of depth: so is a camera of the stored colour images.
+void FitToScaledColor(const ImageSize& depth, const SequenceIndex& index,
+                      Calibration* calibration) {
+  const std::optional<ImageSize> stored = FindImageSize(index, ImageKind::kColor);
+  const PinholeCamera recorded = calibration->Recorded();
+  if (!stored || calibration->depth_camera || !HaveSimilarShape(*stored, depth)) return;
+  if (recorded.width != stored->width || recorded.height != stored->height) return;
+  calibration->SetRecorded(ScaledCamera(recorded, depth));
+}
+
 // Sets the sizes that no source gives, and fits the calibration to those of the images.
 void FitToImages(std::optional<int> max_width, SequenceIndex* index, Calibration* calibration) {
   const std::optional<ImageSize> depth = FindImageSize(*index, ImageKind::kDepth);
   std::optional<ImageSize> color =
       index->scale_color ? depth : FindImageSize(*index, ImageKind::kColor);
+  if (index->scale_color && depth) FitToScaledColor(*depth, *index, calibration);
   if (!color && !calibration->depth_camera) color = depth;  // registered to colour
   SetMissingSize(color, *index, ImageKind::kColor, &calibration->camera);
   if (calibration->depth_camera) {

@@ -10,13 +10,13 @@
 #include <string>
 #include <vector>
 
+#include "msc_vo/datasets/folder_camera.h"
 #include "msc_vo/datasets/image_folder.h"
 #include "msc_vo/datasets/image_size_fit.h"
 #include "msc_vo/datasets/name_pairing.h"
 #include "msc_vo/datasets/pose_matrix.h"
 #include "msc_vo/datasets/sequence_calibration.h"
 #include "msc_vo/datasets/sequence_format.h"
-#include "msc_vo/datasets/tum_folder.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
 
@@ -52,27 +52,50 @@ std::vector<double> NumbersOf(const std::string& name, const std::vector<TextLin
   return numbers;
 }
 
-// Reads the colour camera of an info.txt; returns whether it has one.
-bool ReadInfo(const std::string& path, SequenceIndex* index) {
-  if (!HasEntry(path)) return false;
-  const std::vector<TextLine> lines = ReadTextLines(path);
-  const std::vector<double> k = NumbersOf("m_calibrationColorIntrinsic", lines);
-  const std::vector<double> width = NumbersOf("m_colorWidth", lines);
-  const std::vector<double> height = NumbersOf("m_colorHeight", lines);
-  const std::vector<double> units = NumbersOf("m_depthShift", lines);
-  if (k.size() != 16 || width.size() != 1 || height.size() != 1) return false;
+// A camera of an info.txt, "Color" or "Depth"; none if the file does not describe it.
+std::optional<PinholeCamera> CameraOf(const std::string& kind, const std::vector<TextLine>& lines) {
+  const std::string lowercase = Lowercase(kind);
+  const std::vector<double> k = NumbersOf("m_calibration" + kind + "Intrinsic", lines);
+  const std::vector<double> width = NumbersOf("m_" + lowercase + "Width", lines);
+  const std::vector<double> height = NumbersOf("m_" + lowercase + "Height", lines);
+  if (k.size() != 16 || width.size() != 1 || height.size() != 1) return std::nullopt;
   constexpr double kMaxSize = 65535.0;  // as in headers of JPEG files
   const auto is_size = [](double size) { return size >= 1.0 && size <= kMaxSize; };
-  if (!is_size(width[0]) || !is_size(height[0])) return false;
+  if (!is_size(width[0]) || !is_size(height[0])) return std::nullopt;
+  return PinholeCamera{
+      k[0], k[5], k[2], k[6], static_cast<int>(width[0]), static_cast<int>(height[0])};
+}
+
+// The transform of an info.txt to the axes of a camera, "Color" or "Depth"; identity if there is
+// none.
+Rigid3 ExtrinsicOf(const std::string& kind, const std::vector<TextLine>& lines) {
+  const std::vector<double> e = NumbersOf("m_calibration" + kind + "Extrinsic", lines);
+  if (e.size() != 16) return Rigid3();
+  return RigidFromMatrix(Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(e.data()))
+      .value_or(Rigid3());
+}
+
+// Reads the cameras of an info.txt; returns whether it has that of colour. Depth of the shape of
+// colour is registered to it, other depth has its own camera.
+bool ReadInfo(const std::string& path, SequenceIndex* index) {
+  if (path.empty()) return false;
+  const std::vector<TextLine> lines = ReadTextLines(path);
+  const std::optional<PinholeCamera> camera = CameraOf("Color", lines);
+  if (!camera) return false;
+  const std::vector<double> units = NumbersOf("m_depthShift", lines);
   const ImageSize color = FirstImageSize(*index, ImageKind::kColor);
   const ImageSize depth = FirstImageSize(*index, ImageKind::kDepth);
   index->scale_color = HaveSimilarShape(color, depth);
-  const PinholeCamera camera = {
-      k[0], k[5], k[2], k[6], static_cast<int>(width[0]), static_cast<int>(height[0])};
   Calibration calibration;
-  calibration.camera = ScaledCamera(camera, index->scale_color ? depth : color);
+  calibration.camera = ScaledCamera(*camera, index->scale_color ? depth : color);
   calibration.depth_scale = units.empty() ? kMillimetres : units[0];
   calibration.origin = path;
+  const std::optional<PinholeCamera> depth_camera = CameraOf("Depth", lines);
+  if (!index->scale_color && depth_camera) {
+    calibration.depth_camera =
+        DepthCamera{ScaledCamera(*depth_camera, depth),
+                    ExtrinsicOf("Depth", lines) * ExtrinsicOf("Color", lines).Inverse()};
+  }
   index->calibration = calibration;
   return true;
 }
@@ -82,20 +105,9 @@ void ReadIntrinsics(const std::string& directory, SequenceIndex* index) {
   ReadFolderCamera(directory, index);
   if (index->calibration || index->entries.empty()) return;
   for (const fs::path& folder : {fs::path(directory), fs::path(directory).parent_path()}) {
-    for (const char* name : {"info.txt", "_info.txt"}) {
-      if (ReadInfo((folder / name).string(), index)) return;
-    }
-    const std::string path = (folder / "camera-intrinsics.txt").string();
-    if (!HasEntry(path)) continue;
-    const Eigen::MatrixXd k = ReadMatrix(path, 3, 3);
-    const ImageSize size = FirstImageSize(*index, ImageKind::kDepth);
-    Calibration calibration;
-    calibration.camera = {k(0, 0), k(1, 1), k(0, 2), k(1, 2), size.width, size.height};
-    calibration.depth_scale = kMillimetres;
-    calibration.origin = path;
-    index->calibration = calibration;
-    return;
+    if (ReadInfo(FirstEntry(folder.string(), {"info.txt", "_info.txt"}), index)) return;
   }
+  ReadOtherCamera(directory, {kMillimetres, /*is_certain=*/true}, index);
 }
 
 SequenceIndex Read(const std::string& directory) {

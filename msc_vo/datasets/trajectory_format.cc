@@ -113,11 +113,12 @@ void RefuseMatrices(const std::vector<TextLine>& rows) {
         return HasRotation(values, begin, stride);
       });
       if (!is_matrix) continue;
-      rows.front().Fail(FormatText(
-          "column %zu begins a rotation matrix, but the row is not that of a 3x4 or 4x4 matrix "
-          "[R t] with or without a time stamp in front; write it as one, or as 'time tx ty tz qx "
-          "qy qz qw'",
-          begin + 1));
+      throw NotATrajectory(
+          rows.front().Where() +
+          FormatText(": column %zu begins a rotation matrix, but the row is not that of a 3x4 or "
+                     "4x4 matrix [R t] with or without a time stamp in front; write it as one, or "
+                     "as 'time tx ty tz qx qy qz qw'",
+                     begin + 1));
     }
   }
 }
@@ -137,7 +138,8 @@ TrajectoryFile ReadKitti(std::vector<TextLine> rows) {
     double stamp = row++;
     const auto values = ParseFields(line);
     if (!values) {
-      ++file.num_left_out;
+      const double time = file.has_stamps ? *ParseNumber(line.fields.front()) : stamp;
+      file.LeaveOut(time);
       continue;
     }
     const std::optional<Rigid3> pose = PoseOfRow(*values);
@@ -188,10 +190,16 @@ std::optional<TrajectoryFormat> TrajectoryFormatFromName(const std::string& name
   return EnumFromName<TrajectoryFormat::kEuroc>(name);
 }
 
+void TrajectoryFile::LeaveOut(double time) {
+  ++num_left_out;
+  if (std::isfinite(time)) times_left_out.push_back(time);
+}
+
 std::string TrajectoryFile::DescribeLeftOut() const {
+  constexpr char kReason[] = "with nan or inf or a quaternion of zeros";
   if (num_left_out == 0) return "";
-  return num_left_out == 1 ? "1 row with nan or inf is left out"
-                           : FormatText("%d rows with nan or inf are left out", num_left_out);
+  return num_left_out == 1 ? FormatText("1 row %s is left out", kReason)
+                           : FormatText("%d rows %s are left out", num_left_out, kReason);
 }
 
 TrajectoryFile ReadTrajectoryFile(const std::string& path, std::optional<TrajectoryFormat> format) {
@@ -243,7 +251,8 @@ void ShareStamps(const std::string& reference_path, const std::string& estimate_
   const TrajectoryFile& timed = reference->has_stamps ? *reference : *estimate;
   if (timed.num_left_out > 0) {
     throw std::runtime_error((reference->has_stamps ? reference_path : estimate_path) +
-                             ": has rows with nan or inf, so that it cannot be compared row by row "
+                             ": has rows with nan, inf or a quaternion of zeros, so that it cannot "
+                             "be compared row by row "
                              "with " +
                              without + ", which has no time stamps; correct these rows");
   }

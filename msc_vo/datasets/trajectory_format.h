@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -39,18 +40,31 @@ struct TrajectoryFile {
   /// guessed it; then the stamps of `poses` are converted to seconds.
   std::optional<TimeUnit> unit;
   std::vector<TimedPose> poses;  ///< world_from_cam, in order of time
-  int num_left_out = 0;          ///< rows with nan or inf
+  /// Rows with nan or inf, or with a quaternion 0 0 0 0: other programs write them for lost frames.
+  int num_left_out = 0;
+  /// Their time stamps, in any order, as far as they are finite; their rows without time stamps.
+  std::vector<double> times_left_out;
 
-  /// "2 rows with nan or inf are left out"; empty if none is.
+  /// Counts a row without a pose; `time` is its time stamp.
+  void LeaveOut(double time);
+  /// "2 rows with nan or inf or a quaternion of zeros are left out"; empty if none is.
   std::string DescribeLeftOut() const;
+};
+
+/// Thrown for a file that is no trajectory, while a damaged line in one is a std::runtime_error:
+/// most of its rows are no poses.
+class NotATrajectory : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
 };
 
 /// Reads a trajectory in the given format. Without one, a header decides which columns hold time,
 /// position and quaternion (FindPoseColumns()). Without a header, rows of 12 or 16 numbers with a
 /// rotation matrix are KITTI, comma-separated rows whose stamps are nanoseconds are EuRoC, and all
-/// others TUM; all with or without a number in front; further columns are ignored. Throws
-/// std::runtime_error naming file, line and fix if a row does not fit, or if there is a rotation
-/// matrix or quaternion in other columns.
+/// others TUM; all with or without a number in front; further columns are ignored. Rows of seven
+/// numbers have no time stamp. Throws std::runtime_error naming file, line and fix if a row does
+/// not fit; NotATrajectory if most do not, or if there is a rotation matrix or quaternion in other
+/// columns.
 TrajectoryFile ReadTrajectoryFile(const std::string& path,
                                   std::optional<TrajectoryFormat> format = std::nullopt);
 

@@ -7,11 +7,9 @@
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "msc_vo/datasets/camera_file.h"
 #include "msc_vo/datasets/depth_folder.h"
 #include "msc_vo/datasets/image_list.h"
 #include "msc_vo/datasets/image_pairing.h"
@@ -52,7 +50,9 @@ double StampsPerSecond(const std::string& name, const std::vector<double>& stamp
   if (!images && unit == TimeUnit::kSeconds && AreFrameNumbers(stamps)) {
     index->warnings.push_back(name +
                               ": the stamps are whole numbers and interpreted as seconds; if they "
-                              "are frame numbers, use --format icl-nuim (30 frames per second)");
+                              "are frame numbers, divide them by the images per second, or pair "
+                              "rgb/ and depth/ by name with --format rgb-depth, at the times of "
+                              "times.txt or 30 per second");
   }
   if (unit != TimeUnit::kSeconds) {
     const bool is_certain = images || UnitOfDate(stamps.front()) == unit;
@@ -64,25 +64,20 @@ double StampsPerSecond(const std::string& name, const std::vector<double>& stamp
   return UnitsPerSecond(unit);
 }
 
-// Converts the stamps of the items to seconds; returns whether they were frame numbers.
-template <typename Item>
-bool ToSeconds(const std::string& name, double Item::*stamp, WholeStamps whole,
-               const std::optional<TimeRange>& images, std::vector<Item>* items,
-               SequenceIndex* index) {
-  constexpr double kMaxInterval =
-      std::is_same_v<Item, TimedPose> ? kMaxPoseInterval : kMaxImageInterval;
-  const double rate =
-      StampsPerSecond(name, TimestampsOf(*items, stamp), whole, images, kMaxInterval, index);
-  for (Item& item : *items) item.*stamp /= rate;
-  return rate == kDefaultFrameRate;
+// Converts the stamps of the images to seconds. `other`: the time range of the other list.
+void ToSeconds(const std::string& name, WholeStamps whole, const std::optional<TimeRange>& other,
+               std::vector<ListedImage>* images, SequenceIndex* index) {
+  const double rate = StampsPerSecond(name, TimestampsOf(*images, &ListedImage::stamp), whole,
+                                      other, kMaxImageInterval, index);
+  for (ListedImage& image : *images) image.stamp /= rate;
 }
 
 void ToSeconds(const std::string& color_name, const std::string& depth_name, WholeStamps whole,
                ImageLists* images, SequenceIndex* index) {
-  ToSeconds(color_name, &ListedImage::stamp, whole, std::nullopt, &images->color, index);
+  ToSeconds(color_name, whole, std::nullopt, &images->color, index);
   const TimeRange range =
       RangeOf(TimestampsOf(images->color, &ListedImage::stamp), index->stamp_unit);
-  ToSeconds(depth_name, &ListedImage::stamp, whole, range, &images->depth, index);
+  ToSeconds(depth_name, whole, range, &images->depth, index);
 }
 
 // Reads the lists of a folder, with stamps in seconds.
@@ -143,8 +138,8 @@ void ReadTumEntries(const std::string& directory, WholeStamps whole, SequenceInd
 }
 
 void ReadTumGroundTruth(const std::string& directory, WholeStamps whole, SequenceIndex* index) {
-  const std::string path = PathIn(directory, "groundtruth.txt");
-  const std::string truth = HasEntry(path) ? path : FindFreiburgTruth(directory);
+  const std::string path = FindEntry(directory, "groundtruth.txt");
+  const std::string truth = path.empty() ? FindFreiburgTruth(directory) : path;
   if (!truth.empty()) {
     ReadGroundTruthFile(truth, whole, index);
   } else {
@@ -153,27 +148,31 @@ void ReadTumGroundTruth(const std::string& directory, WholeStamps whole, Sequenc
 }
 
 void ReadGroundTruthFile(const std::string& path, WholeStamps whole, SequenceIndex* index) {
-  TrajectoryFile file = ReadTrajectoryFile(path);
-  if (!file.has_stamps) {
-    throw std::runtime_error(path + ": has no time stamps; write 'time tx ty tz qx qy qz qw' rows");
-  }
-  index->ground_truth = std::move(file.poses);
   const std::string name = fs::path(path).filename().string();
-  if (file.num_left_out > 0) index->warnings.push_back(name + ": " + file.DescribeLeftOut());
+  std::optional<TrajectoryFile> file;
+  try {
+    file = ReadTrajectoryFile(path);
+  } catch (const NotATrajectory& error) {
+    index->warnings.push_back(error.what() + std::string("; the ground truth is left out"));
+    return;
+  }
+  if (file->num_left_out > 0) index->warnings.push_back(name + ": " + file->DescribeLeftOut());
+  if (!file->has_stamps) return AssignPosesInOrder(name, std::move(*file), index);
+  std::vector<double> times = TimestampsOf(file->poses, &TimedPose::timestamp);
+  times.insert(times.end(), file->times_left_out.begin(), file->times_left_out.end());
+  std::sort(times.begin(), times.end());
   const TimeRange images =
       RangeOf(TimestampsOf(index->entries, &SequenceEntry::timestamp), index->stamp_unit);
-  const bool are_numbers = !file.unit && ToSeconds(name, &TimedPose::timestamp, whole, images,
-                                                   &index->ground_truth, index);
-  if (are_numbers) {
+  const double rate =
+      file->unit ? 1.0 : StampsPerSecond(name, times, whole, images, kMaxPoseInterval, index);
+  for (TimedPose& pose : file->poses) pose.timestamp /= rate;
+  for (double& time : times) time /= rate;
+  index->ground_truth = std::move(file->poses);
+  if (!file->unit && rate == kDefaultFrameRate) {
     CheckTimesOfTruth(name, index);
   } else {
-    AdoptTimesOfTruth(name, index);
+    AdoptTimesOfTruth(name, times, index);
   }
-}
-
-void ReadFolderCamera(const std::string& directory, SequenceIndex* index) {
-  const std::string path = PathIn(directory, "camera.txt");
-  if (HasEntry(path)) index->calibration = ReadCameraFile(path);
 }
 
 std::string FindFreiburgTruth(const std::string& directory) {

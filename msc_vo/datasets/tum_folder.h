@@ -31,11 +31,9 @@ inline constexpr char kReferenceComment[] = "poses of ";
 void ReadTumGroundTruth(const std::string& directory, WholeStamps whole, SequenceIndex* index);
 
 /// Reads a trajectory as ground truth. The entries must be known: their time range tells the unit
-/// of stamps, unless a header names it.
+/// of stamps, unless a header names it. Poses without stamps are those of the images in order, see
+/// AssignPosesInOrder(). Adds a warning if the file holds no poses.
 void ReadGroundTruthFile(const std::string& path, WholeStamps whole, SequenceIndex* index);
-
-/// Reads camera.txt if it exists.
-void ReadFolderCamera(const std::string& directory, SequenceIndex* index);
 
 /// Returns the path of the first *.gt.freiburg file of the folder; empty if there is none.
 std::string FindFreiburgTruth(const std::string& directory);

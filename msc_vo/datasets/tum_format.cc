@@ -5,6 +5,7 @@
 
 #include "msc_vo/datasets/camera_preset.h"
 #include "msc_vo/datasets/depth_folder.h"
+#include "msc_vo/datasets/folder_camera.h"
 #include "msc_vo/datasets/image_list.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/datasets/tum_folder.h"
@@ -25,6 +26,7 @@ SequenceIndex Read(const std::string& directory) {
   ReadTumEntries(directory, WholeStamps::kTimes, &index);
   ReadTumGroundTruth(directory, WholeStamps::kTimes, &index);
   ReadFolderCamera(directory, &index);
+  ReadOtherCamera(directory, {5000.0}, &index);
   index.preset = GuessCameraPreset(directory);
   return index;
 }

@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "msc_vo/datasets/image_folder.h"
+#include "msc_vo/datasets/json_file.h"
 #include "msc_vo/image_files/image_file.h"
-#include "msc_vo/phone_recordings/json_file.h"
 #include "msc_vo/phone_recordings/phone_formats.h"
 #include "msc_vo/phone_recordings/phone_sequence.h"
 #include "msc_vo/text/files.h"

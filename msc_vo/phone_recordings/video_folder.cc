@@ -12,6 +12,7 @@
 
 #include "msc_vo/datasets/camera_preset.h"
 #include "msc_vo/datasets/depth_folder.h"
+#include "msc_vo/datasets/folder_camera.h"
 #include "msc_vo/datasets/image_folder.h"
 #include "msc_vo/datasets/image_times.h"
 #include "msc_vo/datasets/named_images.h"
@@ -21,6 +22,7 @@
 #include "msc_vo/phone_recordings/phone_sequence.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
+#include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 
@@ -30,13 +32,13 @@ namespace {
 
 // The video of the folder; empty if there is none.
 std::string FindVideo(const std::string& directory) {
+  std::vector<std::string> names;
   for (const char* name : {"color", "colour", "rgb", "video"}) {
     for (const char* ending : {".mp4", ".mov", ".mkv", ".avi"}) {
-      const std::string path = PathIn(directory, std::string(name) + ending);
-      if (HasEntry(path)) return path;
+      names.push_back(std::string(name) + ending);
     }
   }
-  return "";
+  return FirstEntry(directory, names);
 }
 
 bool IsVideoFolder(const std::string& directory) {
@@ -60,7 +62,8 @@ std::vector<double> FindTimes(const std::string& directory, const VideoImages& v
     try {
       return ReadTimes(path, depth.size());
     } catch (const std::runtime_error& error) {
-      if (fs::path(path).stem() == "times") throw;  // the other one may be of another stream
+      if (Lowercase(fs::path(path).stem().string()) == "times")
+        throw;  // the other one may be of another stream
       index->warnings.push_back(error.what() + std::string("; the file is not used"));
     }
   }

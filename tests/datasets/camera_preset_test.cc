@@ -32,6 +32,14 @@ TEST(GuessCameraPreset, RecognisesTumFolders) {
   EXPECT_EQ(GuessCameraPreset("/data/fr1desk"), "tum-fr1");
   EXPECT_EQ(GuessCameraPreset("/data/fr10_lab"), "");
   EXPECT_EQ(GuessCameraPreset("/data/fr3nch_flat"), "");
+  EXPECT_EQ(GuessCameraPreset("/data/uni_freiburg2_lab"), "");
+}
+
+TEST(HasPublishedName, RecognisesSequencesOfDataSets) {
+  EXPECT_TRUE(HasPublishedName("/data/rgbd_dataset_freiburg2_xyz/"));
+  EXPECT_TRUE(HasPublishedName("/data/chess/seq-01"));
+  EXPECT_FALSE(HasPublishedName("/data/fr2_xyz"));
+  EXPECT_FALSE(HasPublishedName("/data/garage/seq-01"));
 }
 
 TEST(GuessCameraPreset, RecognisesTheFolderBehindADot) {

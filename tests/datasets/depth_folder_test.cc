@@ -3,6 +3,8 @@
 
 #include "msc_vo/datasets/depth_folder.h"
 
+#include <filesystem>
+
 #include "tests/support/message_matchers.h"
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
@@ -32,6 +34,21 @@ TEST_F(DepthFolderTest, PrefersDepthThatIsRegisteredToColour) {
     std::filesystem::remove_all(Path(name));
   }
   EXPECT_EQ(FindDepth(Folder(), ""), "");
+}
+
+TEST_F(DepthFolderTest, NamesMayBeInCapitals) {
+  for (const auto& [color, depth] : {std::pair("RGB", "Depth"), std::pair("Images", "depths")}) {
+    WriteColor(std::string(color) + "/1.png");
+    WriteDepth(std::string(depth) + "/1.png");
+    EXPECT_EQ(OpenSequence(Folder()).entries.size(), 1u);
+    std::filesystem::remove_all(Path(color));
+    std::filesystem::remove_all(Path(depth));
+  }
+  WriteText("RGB.txt", "time path\n1.5 \"a b.png\"\n");
+  WriteText("Depth.TXT", "1.5 d.png\n");
+  const SequenceIndex index = OpenSequence(Folder());
+  ASSERT_EQ(index.entries.size(), 1u);
+  EXPECT_EQ(index.entries[0].color_path, Path("a b.png"));
 }
 
 TEST_F(DepthFolderTest, IgnoresOtherNamesAndFoldersWithoutImages) {

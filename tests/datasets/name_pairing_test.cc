@@ -5,6 +5,7 @@
 
 #include "msc_vo/datasets/name_pairing.h"
 
+#include <filesystem>
 #include <functional>
 
 #include "tests/support/message_matchers.h"
@@ -117,6 +118,31 @@ TEST_F(NamePairingTest, PairsSeparateNumbersByOrderAndSaysSo) {
   EXPECT_THAT(Error(), Names("20", "19", "associations.txt"));
   WriteDepth("depth/1020.png");  // as many, but not the same steps
   EXPECT_THAT(Error(), Names(Path("rgb"), Path("depth"), "associations.txt"));
+}
+
+TEST_F(NamePairingTest, PairsEqualNamesWithoutNumbers) {
+  const auto letters = [](int i) { return std::string("img_") + static_cast<char>('a' + i); };
+  WriteColors(1, 10, letters);
+  WriteDepths(0, 9, letters);
+  const SequenceIndex index = OpenSequence(Folder());
+  ASSERT_EQ(index.entries.size(), 8u);
+  for (const SequenceEntry& entry : index.entries) {
+    EXPECT_EQ(std::filesystem::path(entry.color_path).filename(),
+              std::filesystem::path(entry.depth_path).filename());
+  }
+  EXPECT_THAT(index.warnings, testing::ElementsAre(Names("2", "name")));
+}
+
+TEST_F(NamePairingTest, HexadecimalNamesAreInAlphabeticalOrder) {
+  const auto hex = [](int i) { return FormatText("%08x", 160 + 7 * i); };
+  WriteColors(0, 40, hex);
+  WriteDepths(0, 40, hex);
+  const SequenceIndex index = OpenSequence(Folder());
+  ASSERT_EQ(index.entries.size(), 40u);
+  for (int i = 0; i < 40; ++i) {
+    EXPECT_EQ(index.entries[i].color_path, Path("rgb/" + hex(i) + ".png"));
+    EXPECT_EQ(index.entries[i].depth_path, Path("depth/" + hex(i) + ".png"));
+  }
 }
 
 TEST_F(NamePairingTest, ConstantStepsAreFramesUnlessOnlyTimesFit) {

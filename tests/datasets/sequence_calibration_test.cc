@@ -90,7 +90,7 @@ TEST_F(SequenceCalibrationTest, PrefersSettingsThenFolderThenPresets) {
 
   index.calibration = FindCameraPreset("replica").calibration;
   EXPECT_EQ(ResolveCalibration({}, "tum-fr3", &index).camera.fx, 600.0);
-  EXPECT_THAT(index.warnings, testing::ElementsAre(Names("tum-fr3")));
+  EXPECT_THAT(index.warnings, testing::Contains(Names("tum-fr3")));
 
   CameraSettings settings;
   settings.origin = "mine.yaml";
@@ -159,6 +159,40 @@ TEST_F(SequenceCalibrationTest, ErrorListsAlternativesAndReasons) {
   EXPECT_THAT(
       MessageOf([&] { ResolveCalibration({}, "", &index); }),
       Names("camera.txt", "--config", "--camera", "tum-fr1", "/camera_info gives no calibration"));
+}
+
+TEST_F(SequenceCalibrationTest, AGuessIsVisibleUnlessTheFolderIsIdentified) {
+  const auto warnings = [&](const std::string& directory) {
+    SequenceIndex index = Index();
+    index.preset = "tum-fr1";
+    index.directory = directory;
+    ResolveCalibration({}, "", &index);
+    return index.warnings;
+  };
+  EXPECT_THAT(warnings("/data/fr1_lab"), testing::ElementsAre(Names("tum-fr1", "guess")));
+  EXPECT_THAT(warnings("/data/rgbd_dataset_freiburg1_xyz"), testing::IsEmpty());
+}
+
+TEST_F(SequenceCalibrationTest, DoesNotGuessBesideACalibrationThatItCannotRead) {
+  SequenceIndex index = Index();
+  index.directory = Folder();
+  index.preset = "7-scenes";
+  WriteText("calibration.yaml", "focal: 500\n");
+  EXPECT_THAT(MessageOf([&] { ResolveCalibration({}, "", &index); }), Names("calibration.yaml"));
+}
+
+TEST_F(SequenceCalibrationTest, ErrorGivesTheLineOfTheCameraFile) {
+  SequenceIndex index = Index();
+  index.directory = Folder();
+  WriteText("intrinsic.json",
+            R"({"width": 8, "height": 6, "intrinsic_matrix": [7, 0, 0, 0, 6, 0, 4, 2.5, 1]})");
+  EXPECT_THAT(MessageOf([&] { ResolveCalibration({}, "", &index); }),
+              testing::HasSubstr("7 6 4 2.5 8 6 DEPTH_SCALE"));
+  CameraSettings settings;
+  settings.fx = settings.fy = settings.cx = settings.cy = 3.0;
+  settings.origin = "own.yaml";
+  EXPECT_THAT(MessageOf([&] { ResolveCalibration(settings, "", &index); }),
+              LineNames("own.yaml", "camera.depth_scale"));
 }
 
 // Other programs write depth first, too.

@@ -51,44 +51,6 @@ TEST_F(SequenceTest, ReadsSevenScenes) {
   EXPECT_THAT(ErrorOf(), Names("frame-000003.pose.txt", "transposed", "[R t; 0 0 0 1]"));
 }
 
-TEST_F(SequenceTest, ReadsIntrinsicsOf3DMatch) {
-  WriteColor("seq/frame-000000.color.png");
-  WriteDepth("seq/frame-000000.depth.png");
-  WriteText("camera-intrinsics.txt", "572 0 320\n0 573 240\n0 0 1\n");
-  WriteColor("seq/frame-000001.color.png");
-  WriteText("seq/frame-000000.depth.png", "damaged");
-  WriteDepth("seq/frame-000001.depth.png");
-  const SequenceIndex index = OpenSequence(Path("seq"));
-  ASSERT_TRUE(index.calibration.has_value());
-  EXPECT_EQ(index.calibration->camera.fy, 573.0);
-  EXPECT_EQ(index.calibration->camera.width, 8);
-  EXPECT_EQ(index.calibration->depth_scale, 1000.0);
-}
-
-TEST_F(SequenceTest, ReadsInfoBesideImagesLikeThoseOfSevenScenes) {
-  WriteText("data/frame-000000.pose.txt", kPose);
-  WriteColor("data/frame-000000.color.png", 16, 12);
-  WriteDepth("data/frame-000000.depth.png");
-  const std::string size = "m_colorWidth = 32\nm_colorHeight = 24\nm_depthShift = 5000\n";
-  const std::string camera = "20 0 15.5 0 0 22 11.5 0 0 0 1 0 0 0 0 1";
-  WriteText("info.txt", size + "m_sensorName = StructureSensor\n");
-  EXPECT_FALSE(OpenSequence(Path("data")).calibration.has_value());
-  for (const char* name : {"info.txt", "data/_info.txt"}) {
-    WriteText(name, size + "m_calibrationColorIntrinsic = " + camera + " \n");
-    const SequenceIndex index = OpenSequence(Path("data"));
-    ASSERT_TRUE(index.calibration.has_value());
-    EXPECT_EQ(index.calibration->depth_scale, 5000.0);
-    EXPECT_TRUE(index.scale_color);
-    // Of 32 x 24 pixels, for depth of 8 x 6.
-    EXPECT_EQ(index.calibration->camera.fx, 5.0);
-    EXPECT_EQ(index.calibration->camera.fy, 5.5);
-    EXPECT_EQ(index.calibration->camera.cx, 3.5);
-    std::filesystem::remove(Path(name));
-  }
-  WriteText("info.txt", size + "m_calibrationColorIntrinsic = 20 x\n");
-  EXPECT_THAT(MessageOf([&] { OpenSequence(Path("data")); }), Names("info.txt:4"));
-}
-
 TEST_F(SequenceTest, SaysThatNoPoseOfScanNetHasTheNameOfAnImage) {
   WriteColor("color/0.jpg");
   WriteDepth("depth/0.png");
@@ -117,7 +79,7 @@ TEST_F(SequenceTest, RefusesToOverwriteItsParts) {
   WriteColor("seq/frame-000000.color.png");
   WriteDepth("seq/frame-000000.depth.png");
   WriteText("seq/frame-000000.pose.txt", kPose);
-  WriteText("camera-intrinsics.txt", "572 0 320\n0 573 240\n0 0 1\n");
+  WriteText("camera-intrinsics.txt", "7 0 3.5\n0 5 2.5\n0 0 1\n");
   WriteText("seq/result.html", "");
   const SequenceIndex index = OpenSequence(Path("seq"));
   for (const char* name : {"seq/frame-000000.color.png", "seq/frame-000000.depth.png",
@@ -354,6 +316,9 @@ TEST_F(SequenceTest, UsesGivenFormat) {
 
 TEST_F(SequenceTest, ErrorListsLayoutsAndSuggestsSubfolder) {
   EXPECT_THAT(ErrorOf(), Names("RGB-D sequence", "tum:"));
+  WriteColor("left/images_0/1.png");
+  WriteDepth("z/1.png");
+  EXPECT_THAT(ErrorOf(), Names(Path("left/images_0"), Path("z"), "rgb", "depth"));
   WriteText("inner/rgb.txt", "1.5 a\n");
   EXPECT_THAT(ErrorOf(), Names(Path("inner")));
   EXPECT_THAT(MessageOf([&] { OpenSequence(Path("nowhere")); }), Names("nowhere", "exist"));

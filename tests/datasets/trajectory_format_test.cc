@@ -46,6 +46,32 @@ TEST_F(TrajectoryFormatTest, DetectsFormats) {
             TrajectoryFormat::kEuroc);
 }
 
+TEST_F(TrajectoryFormatTest, SevenNumbersHaveNoStamp) {
+  const TrajectoryFile file = Read("1 2 3 0 0 0 1\n4 5 6 0 0 0 1\n");
+  EXPECT_FALSE(file.has_stamps);
+  ASSERT_EQ(file.poses.size(), 2u);
+  EXPECT_EQ(file.poses[1].world_from_cam.translation(), Eigen::Vector3d(4, 5, 6));
+}
+
+TEST_F(TrajectoryFormatTest, LeavesOutRowsOfLostFrames) {
+  const TrajectoryFile file = Read("1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 0\n3 nan 0 0 0 0 0 1\n");
+  EXPECT_EQ(file.poses.size(), 1u);
+  EXPECT_EQ(file.num_left_out, 2);
+  EXPECT_THAT(file.times_left_out, testing::ElementsAre(2.0, 3.0));
+}
+
+TEST_F(TrajectoryFormatTest, DistinguishesDamagedLinesFromOtherFiles) {
+  EXPECT_THROW(Read("1 2\n2 3\n"), NotATrajectory);
+  EXPECT_THROW(Read("frame status\n1 2\n"), NotATrajectory);
+  try {
+    Read("1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n3 x 0 0 0 0 0 1\n");
+    FAIL() << "accepts a damaged line";
+  } catch (const NotATrajectory&) {
+    FAIL() << "refuses the file for a damaged line";
+  } catch (const std::runtime_error&) {
+  }
+}
+
 TEST_F(TrajectoryFormatTest, ReadsTheSamePoseFromAllFormats) {
   for (const std::string& text :
        {std::string(kTum), std::string(kKitti), kEurocHeader + std::string(kEuroc) + ",0,0,0\n"}) {

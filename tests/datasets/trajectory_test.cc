@@ -125,7 +125,7 @@ TEST_F(TrajectoryTest, ErrorsNameFileAndLine) {
   EXPECT_THAT(ErrorOf("1 0 0 0 0 0 0 1 9\n2 0 0 0 0 0 0 1\n"),
               Names("trajectory.txt:2", "9", "first row", "8"));
   EXPECT_THAT(ErrorOf("1 0 0 x 0 0 0 1\n"), Names("trajectory.txt:1", "'x'"));
-  EXPECT_THAT(ErrorOf("1 0 0 0 0 0 0 0\n"), Names("trajectory.txt:1", "qx qy qz qw", "0.000"));
+  EXPECT_THAT(ErrorOf("1 0 0 0 0 0 0 0.001\n"), Names("trajectory.txt:1", "qx qy qz qw", "0.001"));
   EXPECT_THAT(ErrorOf("1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0.6 0.5\n"),
               Names("trajectory.txt:2", "qx qy qz qw", "0.781"));
   EXPECT_THAT(MessageOf([&] { ReadTrajectory(Path("none.txt")); }), Names("none.txt", "exist"));

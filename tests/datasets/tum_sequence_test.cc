@@ -271,7 +271,7 @@ TEST_F(TumSequenceTest, WholeStampsAreSecondsUnlessLayoutUsesFrameNumbers) {
   EXPECT_THAT(Stamps(index), ElementsAre(1.0, 2.0));
   EXPECT_EQ(index.ground_truth.back().timestamp, 2.0);
   EXPECT_THAT(index.warnings,
-              ElementsAre(Names("associations.txt", "seconds", "--format icl-nuim")));
+              ElementsAre(Names("associations.txt", "seconds", "--format rgb-depth")));
   EXPECT_THAT(Stamps(OpenSequence(Folder(), "icl-nuim")), ElementsAre(1.0 / 30.0, 2.0 / 30.0));
 }
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // SPDX-FileCopyrightText: 2026 the msc_vo authors
 
-#include "msc_vo/phone_recordings/json_file.h"
+#include "msc_vo/datasets/json_file.h"
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -12,12 +13,15 @@
 
 namespace msc_vo {
 
-JsonFile::JsonFile(const std::string& path) : path_(path) {
-  constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 20;
-  json_ = std::make_unique<nlohmann::json>(
-      nlohmann::json::parse(ReadFile(path, kMaxBytes), nullptr, /*allow_exceptions=*/false));
-  if (json_->is_object()) return;
-  throw std::runtime_error(path + ": is damaged or no JSON object; export the recording again");
+JsonFile::JsonFile(const std::string& path, const std::string& key) : path_(path) {
+  constexpr std::uintmax_t kMaxBytes = std::uintmax_t{16} << 20;
+  nlohmann::json json =
+      nlohmann::json::parse(ReadFile(path, kMaxBytes), nullptr, /*allow_exceptions=*/false);
+  if (!key.empty() && json.is_object() && json.contains(key)) json = nlohmann::json(json[key]);
+  if (!json.is_object()) {
+    throw std::runtime_error(path + ": is damaged or no JSON object; export the recording again");
+  }
+  json_ = std::make_unique<nlohmann::json>(std::move(json));
 }
 
 JsonFile::~JsonFile() = default;

@@ -14,8 +14,9 @@ namespace msc_vo {
 /// A JSON object in a file with numbers.
 class JsonFile {
  public:
-  /// Throws std::runtime_error, naming the file, if it cannot be read or is no JSON object.
-  explicit JsonFile(const std::string& path);
+  /// With a `key`, the object is that of this key in the object of the file. Throws
+  /// std::runtime_error, naming the file, if it cannot be read or is no JSON object.
+  explicit JsonFile(const std::string& path, const std::string& key = "");
   ~JsonFile();
   JsonFile(const JsonFile&) = delete;
   JsonFile& operator=(const JsonFile&) = delete;
