@@ -129,6 +129,21 @@ std::optional<CalendarTime> ReadCalendarTime(const NameParts& name, size_t first
   return CalendarTime{timegm(&time), name.digits[run].substr(at), run};
 }
 
+// Whether the numbers count the images of each second, as those of a burst do: they ascend by one
+// or restart, and end far below the next second.
+bool CountWithinSeconds(const Texts& seconds, const Texts& column) {
+  constexpr double kFarBelow = 0.9;  // of a second
+  double largest = 0.0;
+  const std::vector<double> numbers = Numbers(column);
+  for (size_t i = 0; i < numbers.size(); ++i) {
+    largest = std::max(largest, numbers[i] / std::pow(10.0, column[i].size()));
+    const bool same_second = i > 0 && seconds[i] == seconds[i - 1];
+    if (same_second && numbers[i] != numbers[i - 1] + 1.0) return false;
+    if (!same_second && numbers[i] > 1.0) return false;
+  }
+  return largest < kFarBelow;
+}
+
 // The date and the time of day that begin with a run, if all names have them there.
 std::optional<Candidate> ReadCalendar(const Names& names, size_t first_run) {
   Candidate candidate;
@@ -147,7 +162,8 @@ std::optional<Candidate> ReadCalendar(const Names& names, size_t first_run) {
   const size_t next = candidate.last_run + 1;
   if (has_fraction) {
     candidate.texts = WithDecimals(seconds, fractions);
-  } else if (next < names.front().digits.size()) {
+  } else if (next < names.front().digits.size() &&
+             !CountWithinSeconds(seconds, Column(names, next))) {
     const bool is_behind_point = IsPoint(names.front().texts[next]);
     candidate.texts = AppendFraction(seconds, Column(names, next), is_behind_point);
     candidate.last_run = next;

@@ -152,6 +152,12 @@ TEST(NamedImages, DatesWithoutFractionsAreNotUsed) {
   EXPECT_THAT(images.warnings, ElementsAre(Names("dates")));
 }
 
+TEST(NamedImages, CountersWithinASecondAreNoFractions) {
+  const NamedImages images =
+      Read([](int i) { return FormatText("IMG_20230501_1230%02d_%02d", 15 + i / 30, i % 30); });
+  EXPECT_NE(images.certainty, NamedTimes::kCertain);
+}
+
 TEST(NamedImages, TimesThatGoBackwardsAreNotUsed) {
   const NamedImages images = Read([](int i) {
     return FormatText("%04d_%lld.%06lld", i, Seconds(i) - (i < 20 ? 0 : 7), Fraction(i, 1000));
