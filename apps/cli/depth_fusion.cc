@@ -105,8 +105,10 @@ ColoredMesh ExtractSurface(const SurfaceFusion& fusion, const SurfaceFusionOptio
   ColoredMesh mesh = fusion.Extract(with_triangles);
   if (mesh.positions.empty()) {
     throw std::runtime_error(
-        "no surface: no part of the scene was measured often enough within --max-depth (" +
-        FormatText("%g m) at --voxel %g m", options.max_depth, options.voxel_size));
+        "no surface: no part of the scene was measured in " +
+        FormatText(
+            "%d images (--min-observations) within %g m (--max-depth) at voxels of %g m (--voxel)",
+            options.min_observations, options.max_depth, options.voxel_size));
   }
   SortMesh(&mesh);
   return mesh;

@@ -4,7 +4,9 @@
 #include "apps/cli/rendered_frames.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <functional>
+#include <limits>
 #include <thread>
 #include <vector>
 
@@ -30,7 +32,8 @@ std::string EncodeColor(const ColorEncoding& encoding, RenderedImage* image) {
 std::string EncodeDepth(RenderedImage* image) {
   const cv::Mat depth(image->height, image->width, CV_32FC1, image->depth.data());
   cv::Mat raw;
-  depth.convertTo(raw, CV_16U, kRenderedDepthScale);  // rounds, and saturates at 13.1 m
+  depth.convertTo(raw, CV_16U, kRenderedDepthScale);          // rounds
+  raw.setTo(0, raw == std::numeric_limits<uint16_t>::max());  // from 13.1 m: not measured
   // Quantised depth compresses: level 6 saves a fifth of level 1.
   return EncodeWithOpenCv(".png", raw, {cv::IMWRITE_PNG_COMPRESSION, 6});
 }

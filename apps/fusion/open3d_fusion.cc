@@ -67,9 +67,7 @@ void CopyVertices(const o3c::Tensor& positions, const o3c::Tensor& colors, Color
   for (int64_t i = 0; i < xyz.GetLength(); ++i, x += 3, c += 3) {
     mesh->positions.emplace_back(x[0], x[1], x[2]);
     std::array<uint8_t, 3> color;
-    for (int k = 0; k < 3; ++k) {  // from 0..1
-      color[k] = cv::saturate_cast<uint8_t>(255.0f * c[k]);
-    }
+    for (int k = 0; k < 3; ++k) color[k] = cv::saturate_cast<uint8_t>(c[k]);
     mesh->colors.push_back(color);
   }
 }
@@ -129,8 +127,10 @@ class Open3dFusion : public SurfaceFusion {
 
   void Add(const cv::Mat& depth, const cv::Mat& rgb, const Rigid3& cam_from_world) override {
     const o3g::Image depth_image = ImageOf<float>(depth);
+    // Voxels hold 255 times these values, and truncate each running mean: from 0..255, they keep
+    // fractions of a grey level.
     cv::Mat color;
-    rgb.convertTo(color, CV_32FC3, 1.0 / 255.0);
+    rgb.convertTo(color, CV_32FC3);
     const o3c::Tensor extrinsics = Extrinsics(cam_from_world);
     const float max_depth = static_cast<float>(options_.max_depth);
     const o3c::Tensor blocks = BlocksNear(depth_image, extrinsics);

@@ -167,13 +167,15 @@ ColmapModel MakeColmapModel(const Map& map,
       const Keyframe& keyframe = *map.FindKeyframe(observation.keyframe);
       const Frame& frame = *keyframe.frame;
       const Eigen::Vector2d& pixel = frame.points[static_cast<size_t>(observation.feature)].pixel;
-      point.error +=
-          (frame.camera.Project(keyframe.cam_from_world * landmark.position) - pixel).norm();
+      const Eigen::Vector2d projection =
+          frame.camera.Project(keyframe.cam_from_world * landmark.position);
+      const Eigen::Vector2d recorded = ExportPixel(IntrinsicsOf(frame), pixel);
+      point.error += (ExportPixel(IntrinsicsOf(frame), projection) - recorded).norm();
       const int image = images.at(observation.keyframe);
       std::vector<ColmapModel::Feature>& features =
           model.images[static_cast<size_t>(image)].features;
       point.track.push_back({image, static_cast<int>(features.size())});
-      features.push_back({ExportPixel(IntrinsicsOf(frame), pixel), index});
+      features.push_back({recorded, index});
     }
     point.error /= static_cast<double>(std::max<size_t>(1, point.track.size()));
     model.points.push_back(std::move(point));

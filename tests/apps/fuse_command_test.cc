@@ -106,13 +106,15 @@ void WriteFloorImages(const std::string& folder) {
 
 class FuseCommandTest : public TemporaryFolder {
  protected:
-  // Fuses images of the floor.
-  ColoredMesh FuseFloor(const std::vector<std::string>& more) {
+  // Fuses images of the floor: colour images of these names, and the same depth for each.
+  ColoredMesh FuseFloor(const std::vector<std::string>& more,
+                        const std::vector<std::string>& images = {3, "rgb.png"}) {
     WriteText("floor/camera.txt", "130 130 79.5 59.5 160 120 5000\n");
     WriteFloorImages(Path("floor"));
     std::string list, truth;
-    for (const std::string stamp : {"1.0", "1.1", "1.2"}) {
-      list += stamp + " rgb.png " + stamp + " depth.png\n";
+    for (size_t i = 0; i < images.size(); ++i) {
+      const std::string stamp = std::to_string(1.0 + 0.1 * static_cast<double>(i));
+      list += stamp + " " + images[i] + " " + stamp + " depth.png\n";
       truth += stamp + " 0 0 0 0 0 0 1\n";
     }
     WriteText("floor/associations.txt", list);
@@ -252,6 +254,19 @@ TEST_F(FuseCommandTest, AnEdgeOfColoursIsAtItsPixel) {
   }
   ASSERT_GT(num_near, 300);
   EXPECT_LT(num_wrong, num_near / 20);  // a sixth if the border is displaced by half a pixel
+}
+
+TEST_F(FuseCommandTest, ColorsAreMeansOfTheImages) {
+  std::filesystem::create_directory(Path("floor"));
+  for (const int grey : {100, 110}) {
+    cv::imwrite(Path("floor/" + std::to_string(grey) + ".png"), cv::Mat(120, 160, CV_8UC1, grey));
+  }
+  std::vector<std::string> images;
+  for (int i = 0; i < 40; ++i) images.push_back(i % 2 == 0 ? "110.png" : "100.png");
+  const ColoredMesh mesh = FuseFloor({}, images);
+  double sum = 0.0;
+  for (const std::array<uint8_t, 3>& color : mesh.colors) sum += color[1];
+  EXPECT_NEAR(sum / static_cast<double>(mesh.colors.size()), 105.0, 0.5);
 }
 
 TEST_F(FuseCommandTest, WritesPointsAndTheSameBytesTwice) {

@@ -308,6 +308,8 @@ TEST_F(MapFileDamageTest, RefusesFileTruncatedAnywhere) {
     EXPECT_THAT(MessageOf([&] { MapWriter(path_).Load(); }), Names(path_)) << size;
     EXPECT_TRUE(Read() == valid.substr(0, size)) << size;
   }
+  Write(valid.substr(0, valid.size() - 1));
+  EXPECT_THAT(MessageOf([&] { SummarizeMap(path_); }), Names(path_, "truncated"));
 }
 
 }  // namespace

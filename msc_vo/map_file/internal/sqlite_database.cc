@@ -3,6 +3,7 @@
 
 #include "msc_vo/map_file/internal/sqlite_database.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
@@ -197,7 +198,8 @@ std::string_view SqliteStatement::Bytes(int column) const {
                          : std::string_view(static_cast<const char*>(data), size);
 }
 
-void RefuseDamaged(const std::string& path, const std::string& problem) {
+void RefuseDamaged(const std::string& path, std::string problem) {
+  std::replace(problem.begin(), problem.end(), '\n', ' ');
   const std::string journal = JournalOf(std::filesystem::path(path).filename().string());
   throw std::runtime_error(path + ": is damaged (" + problem + "); restore a copy, without " +
                            journal + " of before, or record the map again");
@@ -236,6 +238,7 @@ SqliteDatabase::SqliteDatabase(const std::string& path, Access access) : path_(p
   // Nothing in a file of others is executed, and its pages are checked before they are used.
   Execute("PRAGMA trusted_schema = OFF");
   Execute("PRAGMA cell_size_check = ON");
+  if (access == Access::kRead) RefusePartOfAPage();
   if (access != Access::kWrite) return;
   // Of a new file: half the default, as the last page of each blob is half empty on average. An
   // image of 2000 bytes fits into one.
@@ -245,6 +248,7 @@ SqliteDatabase::SqliteDatabase(const std::string& path, Access access) : path_(p
   Execute("PRAGMA synchronous = NORMAL");
   Execute("BEGIN EXCLUSIVE");
   Execute("COMMIT");
+  RefusePartOfAPage();
 }
 
 void SqliteDatabase::Execute(const std::string& sql) const {
@@ -256,6 +260,15 @@ int64_t SqliteDatabase::Integer(const std::string& sql) const {
   SqliteStatement statement = Prepare(sql);
   const int64_t value = statement.Step() ? statement.Integer(0) : 0;
   return value;
+}
+
+// SQLite notices only whole pages that are missing.
+void SqliteDatabase::RefusePartOfAPage() const {
+  const auto page_size = static_cast<std::uintmax_t>(Integer("PRAGMA page_size"));
+  Execute("PRAGMA page_count");  // restores the last state from a journal first
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path_, error);
+  if (!error && size % page_size != 0) RefuseDamaged(path_, "truncated");
 }
 
 // SQLite checks it with the first transaction only, as the journal remains open.

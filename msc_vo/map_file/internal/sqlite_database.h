@@ -15,7 +15,7 @@ struct sqlite3_stmt;
 namespace msc_vo {
 
 /// Throws std::runtime_error that names a file which is damaged, the problem and the fix.
-[[noreturn]] void RefuseDamaged(const std::string& path, const std::string& problem);
+[[noreturn]] void RefuseDamaged(const std::string& path, std::string problem);
 
 /// The application id in the header of a regular file of SQLite; std::nullopt if it is none.
 std::optional<uint32_t> ApplicationIdOf(const std::string& path);
@@ -86,6 +86,7 @@ class SqliteDatabase {
   }
 
  private:
+  void RefusePartOfAPage() const;
   void RefuseIfMoved() const;
   void RollBack() const;
 
