@@ -14,8 +14,6 @@
 namespace msc_vo {
 namespace {
 
-constexpr char kPose[] = "1 0 0 0.5\n0 1 0 -1\n0 0 1 2\n0 0 0 1\n";
-
 using LayoutCameraTest = TemporaryFolder;
 
 TEST_F(LayoutCameraTest, ReadsIntrinsicsOf3DMatch) {
@@ -78,7 +76,7 @@ TEST_F(LayoutCameraTest, IntrinsicsOfScanNetMayBeThoseOfItsPublishedSize) {
 }
 
 TEST_F(LayoutCameraTest, ReadsInfoBesideImagesLikeThoseOfSevenScenes) {
-  WriteText("data/frame-000000.pose.txt", kPose);
+  WriteText("data/frame-000000.pose.txt", "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
   WriteColor("data/frame-000000.color.png", 16, 12);
   WriteDepth("data/frame-000000.depth.png");
   const std::string size = "m_colorWidth = 32\nm_colorHeight = 24\nm_depthShift = 5000\n";
