@@ -18,6 +18,7 @@
 #include "msc_vo/datasets/image_size_fit.h"
 #include "msc_vo/geometry/quantile.h"
 #include "msc_vo/image_files/image_file.h"
+#include "msc_vo/sensor/depth_units.h"
 #include "msc_vo/sensor/image_mask.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
@@ -133,7 +134,8 @@ void CheckFloatDepth(const cv::Mat& metres, const SequenceEntry& entry) {
 }
 
 constexpr char kRegisterDepth[] =
-    "register the depth to the colour image first, or describe the depth camera in camera.txt";
+    "register the depth to the colour image first, or describe the depth camera by a line "
+    "depth_camera in camera.txt or the file of --camera-file, or by --set camera.depth_camera.NAME";
 
 }  // namespace
 
@@ -271,6 +273,8 @@ RgbdImage RgbdDecoder::MakeImage(int i, const SequenceEntry& entry, cv::Mat colo
   if (depth.type() == CV_32FC1) CheckFloatDepth(image.depth, entry);
   if (registration_) {
     image.recorded_depth = image.depth;
+    const std::string error = DepthUnitsError(image.recorded_depth);
+    if (!error.empty()) Fail(entry.depth_path, entry, error + "; correct camera.depth_scale");
     image.depth = registration_->Register(image.recorded_depth);
   }
   if (index_.masks) {

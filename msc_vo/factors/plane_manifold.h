@@ -9,8 +9,8 @@
 
 namespace msc_vo {
 
-/// Manifold of the parameters of a Plane: a unit normal and an offset. Its tangent are the angles
-/// of UnitVectorManifold (radians), then the offset (metres).
+/// Manifold of the parameters of a Plane: a unit normal and an offset. Its tangent consists of the
+/// angles of UnitVectorManifold (radians), then the offset (metres).
 using PlaneManifold = ceres::ProductManifold<UnitVectorManifold, ceres::EuclideanManifold<1>>;
 
 }  // namespace msc_vo

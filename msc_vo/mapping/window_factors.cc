@@ -8,6 +8,8 @@
 #include <set>
 #include <utility>
 
+#include "msc_vo/bundle_adjustment/validation.h"
+
 namespace msc_vo {
 
 namespace {
@@ -113,7 +115,7 @@ void HoldUnlinkedKeyframes(const Map& map, WindowData* window) {
     if (!held.insert(groups.RootOf(i)).second) continue;
     WindowData::Keyframe& keyframe = window->keyframes[i];
     const PoseCovariance& step = *map.StepCovariance(keyframe.id);
-    if (!groups.HasFactor(i) || step.isZero()) {
+    if (!groups.HasFactor(i) || CovarianceError(step) != nullptr) {
       keyframe.fixed = true;
       continue;
     }

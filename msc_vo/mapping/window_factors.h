@@ -69,7 +69,7 @@ WindowContext MakeWindowContext(const Map& map, const WindowData& window,
 /// Holds the gauge of every group of keyframes that neither landmarks nor custom factors link to a
 /// fixed one, by its oldest keyframe. A group with custom factors, which may measure where it is,
 /// gets a prior: the present pose with the covariance of the step (Map::StepCovariance). In a group
-/// without factors or with an unknown covariance, the keyframe is fixed.
+/// without factors or without that covariance, the keyframe is fixed.
 void HoldUnlinkedKeyframes(const Map& map, WindowData* window);
 
 }  // namespace msc_vo

@@ -79,10 +79,10 @@ struct FrameResult {
   /// The pose in the map as it was known when the frame was tracked. It jumps when the map is
   /// corrected, found again, or joined with an older one.
   Rigid3 cam_from_world;
-  /// The pose by integration of the motion between images, which never jumps, but drifts: neither
-  /// another world nor a correction of the map changes it. Motion that no image shows is missing:
-  /// after a gap, it continues from the pose before. Pose factors are part of the motion: one that
-  /// measures the place in the world makes it jump, too. Identity at the first tracked frame.
+  /// The pose by integration of the motion between images. It drifts; joins and corrections of the
+  /// map do not change it. Motion that no image shows is missing: after a gap, it continues from
+  /// the pose before. A pose factor that measures the absolute pose makes it jump. Identity at the
+  /// first tracked frame.
   Rigid3 cam_from_odometry;
   bool by_pose_factors = false;  ///< predicted by pose factors, not by constant velocity
   bool is_keyframe = false;

@@ -26,8 +26,9 @@ std::string DepthUnitsError(const cv::Mat& depth) {
   }
   if (values.size() < kEnough || *values.rbegin() <= kFarthest) return "";
   return FormatText(
-      "depth is in metres, but all of it is whole numbers up to %g: divide it by the units per "
-      "metre (1000 for millimetres)",
+      "depth must be in metres, but all values are whole numbers, up to %g: divide them by the "
+      "units "
+      "per metre (1000 for millimetres)",
       static_cast<double>(*values.rbegin()));
 }
 

@@ -96,7 +96,7 @@ def calls():
     yield lambda: msc_vo.CostFunction(print, 0, [1]), "num_residuals and every block size must be positive"
     yield lambda: cost.evaluate([1, 2]), r"block 0: expected shape \(7,\)"
     yield lambda: registration.register(depth[:240]), "depth: image is 640x240, depth camera is 640x480"
-    yield lambda: registration.register(1500 + np.indices(depth.shape, np.float32)[0]), "whole numbers up to 1972"
+    yield lambda: registration.register(1500 + np.indices(depth.shape, np.float32)[0]), "whole numbers, up to 1972"
     yield lambda: msc_vo.set_log_level("loud"), "level: must be one of"
     yield with_factors("set_pose_factors", 5), "pose factors: expected PoseFactor objects, not 5"
     yield with_factors("set_pose_factors", [cost]), "pose factors: expected PoseFactor objects, not <"
