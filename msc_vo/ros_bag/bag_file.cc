@@ -49,6 +49,10 @@ const BagTopic* BagFile::FindTopic(const std::string& name) const {
   return found == topics_.end() ? nullptr : &*found;
 }
 
+bool BagFile::HasMessages(const std::string& topic) const {
+  return FindTopic(topic) != nullptr && NumMessages(topic) > 0;
+}
+
 const BagTopic& BagFile::Require(const std::string& name) const {
   const BagTopic* topic = FindTopic(name);
   if (topic == nullptr) throw std::invalid_argument("BagFile: no topic " + name);

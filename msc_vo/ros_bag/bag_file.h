@@ -36,6 +36,8 @@ class BagFile {
   const std::vector<BagTopic>& topics() const { return topics_; }
   /// Null if the bag has no such topic.
   const BagTopic* FindTopic(const std::string& name) const;
+  /// Tests whether the bag has a topic, and messages in it.
+  bool HasMessages(const std::string& topic) const;
   /// What is wrong with the bag although it can be read, one sentence each.
   const std::vector<std::string>& warnings() const { return warnings_; }
 

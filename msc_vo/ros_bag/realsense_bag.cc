@@ -204,9 +204,7 @@ class RealSenseBag : public BagFile {
   }
 
   std::string FirstText(const std::string& topic) const {
-    if (bag_->FindTopic(topic) == nullptr || bag_->NumMessages(topic) == 0) {
-      throw std::runtime_error("the bag has no " + topic);
-    }
+    if (!bag_->HasMessages(topic)) throw std::runtime_error("the bag has no " + topic);
     return bag_->Read(topic, 0);
   }
 

@@ -3,13 +3,11 @@
 
 #include "msc_vo/ros_bag/realsense_camera.h"
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "msc_vo/datasets/calibration.h"
-#include "msc_vo/ros_bag/ros_image.h"
-#include "msc_vo/ros_bag/topic_choice.h"
+#include "msc_vo/ros_bag/ros_message.h"
+#include "msc_vo/text/ending.h"
 #include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
 
@@ -32,16 +30,6 @@ std::vector<std::string> StreamOf(const std::string& topic) {
   return is_stream ? elements : std::vector<std::string>();
 }
 
-std::optional<Calibration> StreamCalibration(const BagFile& bag, const std::string& topic,
-                                             std::string* problem) {
-  const std::string name = CameraInfoTopicOf(topic);
-  if (bag.FindTopic(name) == nullptr || bag.NumMessages(name) == 0) {
-    *problem = "the bag has no " + name;
-    return std::nullopt;
-  }
-  return CalibrationFrom(bag.Parse(name, 0, ParseRosCameraInfo), false, problem);
-}
-
 // The transform from the reference stream of the device to a stream.
 std::optional<Rigid3> StreamFromReference(const BagFile& bag,
                                           const std::vector<std::string>& stream) {
@@ -53,16 +41,22 @@ std::optional<Rigid3> StreamFromReference(const BagFile& bag,
   return std::nullopt;
 }
 
-bool IsSameView(const PinholeCamera& a, const PinholeCamera& b, const Rigid3& b_from_a) {
-  constexpr double kPixels = 0.01, kMetres = 1e-6;  // of numbers that were written as text
-  const double difference = std::max(
-      {std::abs(a.fx - b.fx), std::abs(a.fy - b.fy), std::abs(a.cx - b.cx), std::abs(a.cy - b.cy)});
-  return a.width == b.width && a.height == b.height && difference < kPixels &&
-         b_from_a.translation().norm() < kMetres &&
-         b_from_a.rotation().angularDistance(Eigen::Quaterniond::Identity()) < kMetres;
+// The transform that the driver for ROS publishes as /camera/extrinsics/depth_to_color, beside
+// /camera/depth/... and /camera/color/...
+std::optional<Rigid3> DriverDepthFromColor(const BagFile& bag, const std::string& color_topic,
+                                           const std::string& depth_topic) {
+  const size_t end = depth_topic.find("/depth/");
+  if (end == std::string::npos) return std::nullopt;
+  const std::string camera = depth_topic.substr(0, end);
+  const std::string name = camera + "/extrinsics/depth_to_color";
+  if (color_topic.rfind(camera + "/color/", 0) != 0 || !bag.HasMessages(name)) return std::nullopt;
+  if (!HasEnding(bag.FindTopic(name)->type, "/Extrinsics")) return std::nullopt;
+  return bag.Parse(name, 0, ParseRealSenseExtrinsics).Inverse();
 }
 
 }  // namespace
+
+bool IsRealSenseStream(const std::string& topic) { return !StreamOf(topic).empty(); }
 
 std::optional<double> RealSenseDepthScale(const BagFile& bag, const std::string& depth_topic,
                                           std::string* problem) {
@@ -70,9 +64,8 @@ std::optional<double> RealSenseDepthScale(const BagFile& bag, const std::string&
   if (stream.empty()) return std::nullopt;
   const std::string options = "/" + stream[0] + "/" + stream[1] + "/option/";
   for (const char* option : {"Depth_Units/value", "Depth Units/value"}) {
-    const BagTopic* topic = bag.FindTopic(options + option);
-    if (topic == nullptr || bag.NumMessages(topic->name) == 0) continue;
-    const float units = bag.Parse(topic->name, 0, ParseRosFloat);
+    if (!bag.HasMessages(options + option)) continue;
+    const float units = bag.Parse(options + option, 0, ParseRosFloat);
     // Seven digits are what single precision tells apart: 0.001f is 0.001, not 0.00100000005.
     const std::optional<double> decimal = ParseNumber(FormatText("%.7g", units));
     if (decimal && *decimal > 0.0 && std::isfinite(*decimal)) return 1.0 / *decimal;
@@ -81,14 +74,11 @@ std::optional<double> RealSenseDepthScale(const BagFile& bag, const std::string&
   return std::nullopt;
 }
 
-std::optional<DepthCamera> RealSenseDepthCamera(const BagFile& bag, const std::string& color_topic,
-                                                const std::string& depth_topic,
-                                                std::string* problem) {
+std::optional<Rigid3> RealSenseDepthFromColor(const BagFile& bag, const std::string& color_topic,
+                                              const std::string& depth_topic,
+                                              std::string* problem) {
   const std::vector<std::string> color = StreamOf(color_topic), depth = StreamOf(depth_topic);
-  if (color.empty() || depth.empty()) return std::nullopt;
-  const std::optional<Calibration> color_camera = StreamCalibration(bag, color_topic, problem);
-  const std::optional<Calibration> depth_camera = StreamCalibration(bag, depth_topic, problem);
-  if (!color_camera || !depth_camera) return std::nullopt;
+  if (color.empty() || depth.empty()) return DriverDepthFromColor(bag, color_topic, depth_topic);
   const std::optional<Rigid3> color_from_reference = StreamFromReference(bag, color);
   const std::optional<Rigid3> depth_from_reference = StreamFromReference(bag, depth);
   if (!color_from_reference || !depth_from_reference) {
@@ -96,15 +86,7 @@ std::optional<DepthCamera> RealSenseDepthCamera(const BagFile& bag, const std::s
                std::string(color_from_reference ? depth_topic : color_topic);
     return std::nullopt;
   }
-  DepthCamera camera;
-  camera.camera = depth_camera->Recorded();
-  camera.distortion = depth_camera->distortion;
-  camera.distortion.recorded.reset();
-  camera.depth_from_color = *depth_from_reference * color_from_reference->Inverse();
-  if (IsSameView(color_camera->Recorded(), camera.camera, camera.depth_from_color)) {
-    return std::nullopt;
-  }
-  return camera;
+  return *depth_from_reference * color_from_reference->Inverse();
 }
 
 }  // namespace msc_vo

@@ -30,7 +30,13 @@ class RosFields {
   virtual RosHeader ReadHeader() {
     const uint32_t seconds = ReadWord();
     const uint32_t nanoseconds = ReadWord();
-    return {SecondsOf(seconds, nanoseconds), ReadString()};
+    return {SecondsOf(seconds, nanoseconds), ReadFrame()};
+  }
+  /// Name of a coordinate frame, without the slash that names of ROS 1 may begin with.
+  std::string ReadFrame() {
+    std::string name = ReadString();
+    if (!name.empty() && name.front() == '/') name.erase(0, 1);
+    return name;
   }
 
   void ReadDoubles(double* values, size_t count) {

@@ -20,6 +20,7 @@ namespace msc_vo {
 namespace {
 
 constexpr int kNoConversion = -1;
+constexpr char kMetres[] = "32FC1";             // the encoding of depth in metres
 constexpr char kEquidistant[] = "equidistant";  // the fisheye model in a CameraInfo
 
 struct Encoding {
@@ -49,12 +50,22 @@ const std::map<std::string, Encoding>& Encodings() {
       {"yuyv", {RosImageKind::kColor, CV_8UC2, cv::COLOR_YUV2BGR_YUY2}},
       {"16UC1", {RosImageKind::kDepth, CV_16UC1, kNoConversion}},
       {"mono16", {RosImageKind::kDepth, CV_16UC1, kNoConversion}},
-      {"32FC1", {RosImageKind::kDepth, CV_32FC1, kNoConversion}}};
+      {kMetres, {RosImageKind::kDepth, CV_32FC1, kNoConversion}}};
   return encodings;
 }
 
 bool IsCompressedDepth(const std::string& format) {
   return format.find("compressedDepth") != std::string::npos;
+}
+
+// The encoding in front of the compression in the format of a compressed image.
+std::string EncodingIn(const std::string& format) { return format.substr(0, format.find(';')); }
+
+// Tests whether an image is a PNG with one channel of 16 bits.
+bool IsGray16Png(std::string_view data) {
+  constexpr size_t kBitsAt = 24, kColorTypeAt = 25;  // in the header
+  return data.size() > kColorTypeAt && data.substr(1, 3) == "PNG" && data[kBitsAt] == 16 &&
+         data[kColorTypeAt] == 0;
 }
 
 // The header in front of the PNG of compressedDepth: an enumeration and the parameters of the
@@ -94,7 +105,7 @@ StoredImage DecodeCompressedDepth(const RosCompressedImage& image) {
   }
   std::memcpy(&header, image.data.data(), sizeof(header));
   const std::string_view encoded = image.data.substr(sizeof(header));
-  const bool is_metres = image.format.compare(0, 5, "32FC1") == 0;
+  const bool is_metres = EncodingIn(image.format) == kMetres;
   const bool is_rvl = image.format.find("rvl") != std::string::npos;
   const cv::Mat raw =
       is_rvl ? DecodeRvl(encoded) : DecodeImage(std::string(encoded), cv::IMREAD_UNCHANGED);
@@ -157,11 +168,18 @@ RosImageKind KindOfEncoding(const std::string& encoding) {
   return found == Encodings().end() ? RosImageKind::kOther : found->second.kind;
 }
 
-RosImageKind KindOfFormat(const std::string& format) {
-  if (IsCompressedDepth(format)) return RosImageKind::kDepth;
+RosImageKind KindOfCompressed(const RosCompressedImage& image) {
+  if (IsCompressedDepth(image.format) || IsGray16Png(image.data)) return RosImageKind::kDepth;
   // "ENCODING; jpeg compressed ENCODING", or only "jpeg".
-  const RosImageKind kind = KindOfEncoding(format.substr(0, format.find(';')));
-  return kind == RosImageKind::kGray ? kind : RosImageKind::kColor;
+  switch (KindOfEncoding(EncodingIn(image.format))) {
+    case RosImageKind::kGray:
+      return RosImageKind::kGray;
+    case RosImageKind::kDepth:
+      return image.format.find("jpeg") == std::string::npos ? RosImageKind::kDepth
+                                                            : RosImageKind::kOther;
+    default:
+      return RosImageKind::kColor;
+  }
 }
 
 StoredImage ConvertRosImage(const RosImage& image) {
@@ -191,6 +209,9 @@ StoredImage ConvertRosImage(const RosImage& image) {
 
 StoredImage ConvertRosImage(const RosCompressedImage& image) {
   if (IsCompressedDepth(image.format)) return DecodeCompressedDepth(image);
+  if (EncodingIn(image.format) == kMetres) {  // TIFF
+    return {"", DecodeImage(std::string(image.data), cv::IMREAD_UNCHANGED)};
+  }
   return {std::string(image.data), {}};
 }
 

@@ -17,8 +17,9 @@ enum class RosImageKind { kOther, kGray, kColor, kDepth };
 
 /// Returns the kind of an encoding of sensor_msgs/Image.
 RosImageKind KindOfEncoding(const std::string& encoding);
-/// Returns the kind of a format of sensor_msgs/CompressedImage.
-RosImageKind KindOfFormat(const std::string& format);
+/// Returns the kind of a sensor_msgs/CompressedImage: that of the encoding in its format, if it has
+/// one. JPEG images of depth have lost their measurements and are of no kind.
+RosImageKind KindOfCompressed(const RosCompressedImage& image);
 
 /// Converts a colour image (8 bits per channel: bgr8, rgb8, bgra8, rgba8, mono8, 8UC1, 8UC3, Bayer
 /// patterns, yuv422 and yuv422_yuy2 and their names uyvy and yuyv) or a depth image (16UC1 and
@@ -26,8 +27,9 @@ RosImageKind KindOfFormat(const std::string& format);
 /// one or the size does not fit the data.
 StoredImage ConvertRosImage(const RosImage& image);
 
-/// Returns a compressed colour image as it is, and a compressed depth image (compressedDepth of
-/// image_transport, PNG or RVL) decoded. Throws std::runtime_error if it is damaged.
+/// Returns a compressed image as it is, and a compressed depth image of compressedDepth of
+/// image_transport (PNG or RVL) or of floating-point numbers decoded. Throws std::runtime_error if
+/// it is damaged.
 StoredImage ConvertRosImage(const RosCompressedImage& image);
 
 /// Returns the calibration of a CameraInfo for images as they come from the camera, or, if

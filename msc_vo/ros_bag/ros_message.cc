@@ -3,7 +3,9 @@
 
 #include "msc_vo/ros_bag/ros_message.h"
 
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "msc_vo/datasets/calibration.h"
 #include "msc_vo/ros_bag/ros_fields.h"
@@ -16,6 +18,17 @@ namespace {
 
 std::unique_ptr<RosFields> OpenFields(std::string_view bytes, RosSerialization serialization) {
   return serialization == RosSerialization::kCdr ? OpenCdrFields(bytes) : OpenRos1Fields(bytes);
+}
+
+// None if the rotation has no unit length.
+std::optional<Rigid3> ReadTransform(RosFields* fields) {
+  Eigen::Vector3d translation;
+  fields->ReadDoubles(translation.data(), 3);
+  std::vector<double> xyzw(4);
+  fields->ReadDoubles(xyzw.data(), 4);
+  const std::optional<Eigen::Quaterniond> rotation = NormalizedQuaternion(xyzw);
+  if (!rotation || !translation.allFinite()) return std::nullopt;
+  return Rigid3(*rotation, translation);
 }
 
 }  // namespace
@@ -88,15 +101,38 @@ float ParseRosFloat(std::string_view bytes, RosSerialization serialization) {
 }
 
 Rigid3 ParseRosTransform(std::string_view bytes, RosSerialization serialization) {
+  const std::optional<Rigid3> transform = ReadTransform(OpenFields(bytes, serialization).get());
+  if (!transform) throw std::runtime_error("the message is no transform");
+  return *transform;
+}
+
+std::vector<RosFrameTransform> ParseRosFrameTransforms(std::string_view bytes,
+                                                       RosSerialization serialization) {
   const auto fields = OpenFields(bytes, serialization);
+  std::vector<RosFrameTransform> transforms;
+  const uint32_t count = fields->ReadWord();
+  for (uint32_t i = 0; i < count; ++i) {
+    std::string parent = fields->ReadHeader().frame;
+    std::string child = fields->ReadFrame();
+    const std::optional<Rigid3> transform = ReadTransform(fields.get());
+    if (transform) transforms.push_back({std::move(parent), std::move(child), *transform});
+  }
+  return transforms;
+}
+
+Rigid3 ParseRealSenseExtrinsics(std::string_view bytes, RosSerialization serialization) {
+  constexpr size_t kMaxBytesWithoutHeader = 4 + 12 * sizeof(double);
+  constexpr double kMaxError = 1e-3;  // of numbers in single precision
+  const auto fields = OpenFields(bytes, serialization);
+  if (bytes.size() > kMaxBytesWithoutHeader) fields->ReadHeader();
+  Eigen::Matrix3d rotation;  // column by column
+  fields->ReadDoubles(rotation.data(), 9);
   Eigen::Vector3d translation;
   fields->ReadDoubles(translation.data(), 3);
-  std::vector<double> xyzw(4);
-  fields->ReadDoubles(xyzw.data(), 4);
-  const std::optional<Eigen::Quaterniond> rotation = NormalizedQuaternion(xyzw);
-  if (!rotation || !translation.allFinite())
-    throw std::runtime_error("the message is no transform");
-  return {*rotation, translation};
+  const bool is_rotation = (rotation * rotation.transpose()).isIdentity(kMaxError) &&
+                           rotation.determinant() > 0.0 && translation.allFinite();
+  if (!is_rotation) throw std::runtime_error("the message is no transform");
+  return {Eigen::Quaterniond(rotation).normalized(), translation};
 }
 
 }  // namespace msc_vo

@@ -30,7 +30,7 @@ double SecondsOf(int64_t nanoseconds);
 /// std_msgs/Header.
 struct RosHeader {
   double stamp = 0.0;  ///< seconds; the double nearest to the decimal number of the stamp
-  std::string frame;   ///< name of the coordinate frame
+  std::string frame;   ///< name of the coordinate frame, without a slash in front
 };
 
 /// sensor_msgs/Image.
@@ -70,6 +70,13 @@ struct RosCameraInfo {
   uint32_t roi_width = 0;   ///< 0: all columns
 };
 
+/// geometry_msgs/TransformStamped. The names of the frames have no slash in front.
+struct RosFrameTransform {
+  std::string parent;
+  std::string child;
+  Rigid3 parent_from_child;  ///< metres
+};
+
 /// All messages with images begin with a header.
 RosHeader ParseRosHeader(std::string_view bytes, RosSerialization serialization);
 RosImage ParseRosImage(std::string_view bytes, RosSerialization serialization);
@@ -80,5 +87,11 @@ float ParseRosFloat(std::string_view bytes, RosSerialization serialization);
 /// geometry_msgs/Transform; translation in metres. Throws std::runtime_error if the rotation has no
 /// unit length.
 Rigid3 ParseRosTransform(std::string_view bytes, RosSerialization serialization);
+/// tf2_msgs/TFMessage and tf/tfMessage. Transforms whose rotation has no unit length are left out.
+std::vector<RosFrameTransform> ParseRosFrameTransforms(std::string_view bytes,
+                                                       RosSerialization serialization);
+/// realsense2_camera_msgs/Extrinsics, with or without a header: b_from_a of the topic a_to_b,
+/// metres. Throws std::runtime_error if the rotation is none.
+Rigid3 ParseRealSenseExtrinsics(std::string_view bytes, RosSerialization serialization);
 
 }  // namespace msc_vo

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstddef>
 #include <initializer_list>
 #include <tuple>
 #include <utility>
@@ -30,23 +31,32 @@ bool IsInfrared(const ImageTopic& topic) {
   return HasWord(topic, {"ir", "nir", "lwir", "infra", "infrared", "thermal"});
 }
 
+bool IsColorOrGray(const ImageTopic& topic) {
+  return topic.kind == RosImageKind::kColor || topic.kind == RosImageKind::kGray;
+}
+
 bool IsNamedDepth(const ImageTopic& topic) { return HasWord(topic, {"depth", "disparity"}); }
 
 // Number of path elements that two names have in common at their beginning.
-size_t CommonElements(const std::string& a, const std::string& b) {
+std::ptrdiff_t CommonElements(const std::string& a, const std::string& b) {
   const auto different = std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first;
-  return static_cast<size_t>(std::count(a.begin(), different, '/'));
+  return std::count(a.begin(), different, '/');
 }
 
-// Keeps the topics that fit, in the order of their penalties.
-template <typename Fits, typename Penalty>
-std::vector<ImageTopic> Rank(std::vector<ImageTopic> topics, const Fits& fits,
-                             const Penalty& penalty) {
-  EraseIf(&topics, [&](const ImageTopic& topic) { return !fits(topic); });
-  std::stable_sort(topics.begin(), topics.end(), [&](const ImageTopic& a, const ImageTopic& b) {
-    return penalty(a) < penalty(b);
-  });
-  return topics;
+// What is wrong with a pair of topics, the most important first.
+auto PenaltiesOf(const ImageTopic& color, const ImageTopic& depth) {
+  const int registration = HaveSameFrame(color, depth) ? 0 : IsRegistered(depth) ? 1 : 2;
+  return std::tuple(IsNamedDepth(color), registration, !color.is_calibrated,
+                    color.kind == RosImageKind::kGray, !IsRegistered(depth),
+                    -CommonElements(color.name, depth.name), color.is_compressed,
+                    depth.is_compressed);
+}
+
+// The word behind "depth_to"; empty if there is none.
+std::string TargetOfDepth(const std::vector<std::string>& words) {
+  const std::vector<std::string> depth_to = {"depth", "to"};
+  const auto found = std::search(words.begin(), words.end(), depth_to.begin(), depth_to.end());
+  return words.end() - found > 2 ? found[2] : "";
 }
 
 }  // namespace
@@ -67,30 +77,27 @@ std::vector<std::string> TopicWords(const std::string& name) {
   return words;
 }
 
-std::vector<ImageTopic> RankDepthTopics(std::vector<ImageTopic> topics) {
-  return Rank(
-      std::move(topics),
-      [](const ImageTopic& topic) {
-        return topic.kind == RosImageKind::kDepth && !IsInfrared(topic);
-      },
-      [](const ImageTopic& topic) {
-        return std::tuple(!IsRegistered(topic), topic.is_compressed);
-      });
+std::vector<ImageTopic> DepthTopics(std::vector<ImageTopic> topics) {
+  EraseIf(&topics, [](const ImageTopic& topic) {
+    return topic.kind != RosImageKind::kDepth || IsInfrared(topic);
+  });
+  return topics;
 }
 
-std::vector<ImageTopic> RankColorTopics(std::vector<ImageTopic> topics,
-                                        const std::string& depth_topic) {
-  return Rank(
-      std::move(topics),
-      [](const ImageTopic& topic) {
-        return (topic.kind == RosImageKind::kColor || topic.kind == RosImageKind::kGray) &&
-               !IsInfrared(topic);
-      },
-      [&](const ImageTopic& topic) {
-        const size_t common = CommonElements(topic.name, depth_topic);
-        return std::tuple(topic.kind == RosImageKind::kGray, IsNamedDepth(topic),
-                          depth_topic.size() - common, topic.is_compressed);
-      });
+std::vector<ImageTopic> ColorTopics(std::vector<ImageTopic> topics) {
+  EraseIf(&topics,
+          [](const ImageTopic& topic) { return !IsColorOrGray(topic) || IsInfrared(topic); });
+  return topics;
+}
+
+TopicPair BestPair(const std::vector<ImageTopic>& colors, const std::vector<ImageTopic>& depths) {
+  TopicPair best = {colors.at(0), depths.at(0)};
+  for (const ImageTopic& depth : depths) {
+    for (const ImageTopic& color : colors) {
+      if (PenaltiesOf(color, depth) < PenaltiesOf(best.color, best.depth)) best = {color, depth};
+    }
+  }
+  return best;
 }
 
 std::string DescribeTopic(const ImageTopic& topic) {
@@ -113,11 +120,23 @@ std::string DescribeTopic(const ImageTopic& topic) {
   if (topic.is_compressed) text += ", compressed";
   if (IsInfrared(topic)) text += ", infrared";
   if (topic.kind != RosImageKind::kDepth && IsNamedDepth(topic)) text += ", named as depth";
+  if (IsColorOrGray(topic) && !topic.is_calibrated) text += ", no CameraInfo";
   return text + ")";
 }
 
 bool IsRegistered(const ImageTopic& topic) {
-  return HasWord(topic, {"registered", "aligned"}) && !HasWord(topic, {"no", "not", "non", "un"});
+  if (HasWord(topic, {"no", "not", "non", "un"})) return false;
+  const std::string target = TargetOfDepth(TopicWords(topic.name));
+  if (!target.empty()) return target == "color" || target == "colour" || target == "rgb";
+  return HasWord(topic, {"registered", "aligned"});
+}
+
+bool HaveSameFrame(const ImageTopic& a, const ImageTopic& b) {
+  return !a.frame.empty() && a.frame == b.frame;
+}
+
+bool AreRegistered(const ImageTopic& depth, const ImageTopic& color) {
+  return IsRegistered(depth) || HaveSameFrame(depth, color);
 }
 
 bool IsRectified(const ImageTopic& topic) {

@@ -10,6 +10,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/core/utils/logger.hpp>
 
+#include "msc_vo/ros_bag/frame_tree.h"
 #include "msc_vo/ros_bag/ros_image.h"
 #include "msc_vo/ros_bag/rvl.h"
 #include "msc_vo/ros_bag/topic_choice.h"
@@ -27,7 +28,7 @@ void ReadImage(std::string_view bytes, RosSerialization serialization) {
 
 void ReadCompressedImage(std::string_view bytes, RosSerialization serialization) {
   const RosCompressedImage image = ParseRosCompressedImage(bytes, serialization);
-  KindOfFormat(image.format);
+  KindOfCompressed(image);
   ConvertRosImage(image);
 }
 
@@ -38,6 +39,16 @@ void ReadCameraInfo(std::string_view bytes, RosSerialization serialization) {
     const std::optional<Calibration> calibration = CalibrationFrom(info, is_rectified, &problem);
     Require(calibration || !problem.empty(), "a reason for no calibration");
   }
+}
+
+void ReadFrameTransforms(std::string_view bytes, RosSerialization serialization) {
+  FrameTree tree;
+  const std::vector<RosFrameTransform> transforms = ParseRosFrameTransforms(bytes, serialization);
+  for (const RosFrameTransform& transform : transforms) {
+    Require(transform.parent_from_child.params.allFinite(), "a finite transform");
+    tree.Add(transform);
+  }
+  if (!transforms.empty()) tree.Find(transforms.front().child, transforms.back().child);
 }
 
 }  // namespace
@@ -66,6 +77,12 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
       case 4:
         Require(ParseRosTransform(bytes, serialization).translation().allFinite(),
                 "a finite translation");
+        return;
+      case 6:
+        return ReadFrameTransforms(bytes, serialization);
+      case 7:
+        Require(ParseRealSenseExtrinsics(bytes, serialization).params.allFinite(),
+                "a finite transform");
         return;
       default:
         DecodeRvl(bytes);

@@ -39,7 +39,8 @@ class BagSequenceTest : public TemporaryFolder {
     info.height = 24;
     info.cx = 15.5;
     info.cy = 11.5;
-    bag->Write(info_topic_, "sensor_msgs/CameraInfo", 1.0, CameraInfoMessage(info, serialization));
+    bag->Write("/camera/rgb/camera_info", "sensor_msgs/CameraInfo", 1.0,
+               CameraInfoMessage(info, serialization));
     for (const int i : {1, 0, 2, 4, 3}) {
       const auto nanoseconds = static_cast<uint32_t>(100000000 * i);
       const cv::Mat color(24, 32, CV_8UC3, cv::Scalar::all(10 * (i + 1)));
@@ -49,15 +50,12 @@ class BagSequenceTest : public TemporaryFolder {
       const double recorded = 1.0 + 0.1 * recordings_++;
       bag->Write("/camera/rgb/image_color", "sensor_msgs/Image", recorded,
                  ImageMessage(100, nanoseconds, color, "bgr8", serialization));
-      bag->Write(depth_topic_, "sensor_msgs/Image", recorded + 0.01,
-                 ImageMessage(100, nanoseconds + 5000000, depth, depth_encoding, serialization,
-                              depth_frame_));
+      bag->Write("/camera/depth/image", "sensor_msgs/Image", recorded + 0.01,
+                 ImageMessage(100, nanoseconds + 5000000, depth, depth_encoding, serialization));
     }
     bag->Write("/camera/ir/image", "sensor_msgs/Image", 9.0,
                ImageMessage(100, 0, cv::Mat::zeros(24, 32, CV_8UC1), "mono8", serialization));
   }
-  std::string info_topic_ = "/camera/rgb/camera_info", depth_topic_ = "/camera/depth/image";
-  std::string depth_frame_ = "/camera";
   int recordings_ = 0;
 
   static void ExpectFivePairs(const std::string& path) {
@@ -146,37 +144,6 @@ TEST_F(BagSequenceTest, TakesTheTopicsThatAreNamed) {
   const SequenceIndex infrared = OpenBag(Path("x.bag"), {"/camera/ir/image", ""});
   ASSERT_EQ(infrared.entries.size(), 1u);
   EXPECT_THAT(infrared.entries[0].color_path, Names("x.bag:/camera/ir/image", "0"));
-}
-
-TEST_F(BagSequenceTest, WarnsOfACameraInfoOfDepthThatIsNotRegistered) {
-  for (const std::string topic : {"/camera/depth", "/camera/depth_registered"}) {
-    depth_topic_ = topic + "/image";
-    info_topic_ = topic + "/camera_info";
-    WriteBag("x.bag", "16UC1");
-    const SequenceIndex index = OpenBag(Path("x.bag"));
-    EXPECT_EQ(index.calibration->camera.fx, 525.0);
-    const int expected = topic == "/camera/depth" ? 1 : 0;
-    const auto is_warning = Names("/camera/rgb/image_color", info_topic_, "--camera-file");
-    EXPECT_THAT(index.warnings, testing::Contains(is_warning).Times(expected));
-  }
-}
-
-TEST_F(BagSequenceTest, DepthWithACameraInfoOfItsOwnIsNotRegistered) {
-  for (const auto& [fx, frame] :
-       {std::pair(300.0, "/depth"), std::pair(300.0, "/camera"), std::pair(525.5, "/depth")}) {
-    depth_frame_ = frame;
-    const bool is_separate = fx == 300.0 && depth_frame_ == "/depth";
-    std::unique_ptr<BagWriter> bag = WriteRos1Bag(Path("x.bag"));
-    CameraInfoFields info;
-    info.fx = fx;
-    info.width = 32, info.height = 24, info.cx = 15.5, info.cy = 11.5;
-    bag->Write("/camera/depth/camera_info", "sensor_msgs/CameraInfo", 1.0, CameraInfoMessage(info));
-    WriteBag(std::move(bag), "16UC1");
-    const SequenceIndex index = OpenBag(Path("x.bag"));
-    EXPECT_EQ(index.calibration->camera.fx, 525.0);
-    EXPECT_EQ(index.calibration->depth_camera.has_value(), is_separate);
-    EXPECT_EQ(index.warnings.empty(), !is_separate);
-  }
 }
 
 TEST_F(BagSequenceTest, PrefersThePresetThatTheNameSuggests) {

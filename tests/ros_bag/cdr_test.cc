@@ -77,5 +77,39 @@ TEST(Cdr, ReadsTransforms) {
   EXPECT_THROW(ParseRosTransform(message(2.0), kCdr), std::runtime_error);
 }
 
+TEST(Cdr, ReadsTransformsBetweenFrames) {
+  const std::vector<ShiftedFrame> frames = {{"/a", "bcd", {1.0, 2.0, 3.0}},
+                                            {"efghi", "/", {4.0, 5.0, 6.0}}};
+  for (const RosSerialization form : {RosSerialization::kRos1, kCdr}) {
+    const std::string bytes = TransformsMessage(frames, form);
+    const std::vector<RosFrameTransform> transforms = ParseRosFrameTransforms(bytes, form);
+    ASSERT_EQ(transforms.size(), 2u);
+    EXPECT_EQ(transforms[0].parent, "a");
+    EXPECT_EQ(transforms[0].child, "bcd");
+    EXPECT_EQ(transforms[1].child, "");
+    EXPECT_EQ(transforms[1].parent_from_child.translation(), Eigen::Vector3d(4.0, 5.0, 6.0));
+    EXPECT_THROW(ParseRosFrameTransforms(bytes.substr(0, bytes.size() - 1), form),
+                 std::runtime_error);
+  }
+}
+
+// The matrix is stored column by column; messages of ROS 1 have a header.
+TEST(Cdr, ReadsExtrinsicsOfRealSense) {
+  const auto add = [](MessageBytes message, double scale) {
+    return message.AddEach(std::vector{0.0, scale, 0.0, -scale, 0.0, 0.0, 0.0, 0.0, scale})
+        .AddEach(std::vector{0.1, 0.2, 0.3})
+        .bytes();
+  };
+  for (const RosSerialization form : {RosSerialization::kRos1, kCdr}) {
+    for (const bool has_header : {true, false}) {
+      MessageBytes message(form);
+      if (has_header) message.AddHeader(1, 2, "camera");
+      const Rigid3 transform = ParseRealSenseExtrinsics(add(message, 1.0), form);
+      EXPECT_TRUE((transform * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d(0.1, 1.2, 0.3)));
+      EXPECT_THROW(ParseRealSenseExtrinsics(add(message, 2.0), form), std::runtime_error);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace msc_vo

@@ -68,6 +68,25 @@ inline std::string ImageMessage(uint32_t seconds, uint32_t nanoseconds, const cv
       .bytes();
 }
 
+// Transforms without a rotation.
+struct ShiftedFrame {
+  std::string parent, child;
+  std::vector<double> child_in_parent;
+};
+
+inline std::string TransformsMessage(const std::vector<ShiftedFrame>& transforms,
+                                     RosSerialization serialization = RosSerialization::kRos1) {
+  MessageBytes message(serialization);
+  message.Add(static_cast<uint32_t>(transforms.size()));
+  for (const ShiftedFrame& transform : transforms) {
+    message.AddHeader(1, 0, transform.parent)
+        .AddText(transform.child)
+        .AddEach(transform.child_in_parent)
+        .AddEach(std::vector<double>{0.0, 0.0, 0.0, 1.0});
+  }
+  return message.bytes();
+}
+
 inline std::string CompressedMessage(uint32_t seconds, uint32_t nanoseconds,
                                      const std::string& format, const std::string& data,
                                      RosSerialization serialization = RosSerialization::kRos1) {
@@ -85,13 +104,14 @@ struct CameraInfoFields {
   std::vector<double> d = {0, 0, 0, 0, 0};
   uint32_t binning = 0;
   cv::Rect roi = {};
+  std::string frame = "/camera";
 };
 
 inline std::string CameraInfoMessage(const CameraInfoFields& info,
                                      RosSerialization serialization = RosSerialization::kRos1) {
   using Numbers = std::vector<double>;
   return MessageBytes(serialization)
-      .AddHeader(1, 0)
+      .AddHeader(1, 0, info.frame)
       .Add(info.height)
       .Add(info.width)
       .AddText(info.model)

@@ -24,7 +24,7 @@ std::string Png(const cv::Mat& image) {
 TEST(RosMessage, ReadsStampsAsInTextFiles) {
   const std::string bytes = MessageBytes().AddHeader(1305031102, 175304000).bytes();
   EXPECT_EQ(ParseRosHeader(bytes, kRos1).stamp, 1305031102.175304);
-  EXPECT_EQ(ParseRosHeader(bytes, kRos1).frame, "/camera");
+  EXPECT_EQ(ParseRosHeader(bytes, kRos1).frame, "camera");
 }
 
 TEST(RosMessage, RefusesShortMessages) {
@@ -123,10 +123,37 @@ TEST(RosImage, KnowsKindsOfImages) {
   EXPECT_EQ(KindOfEncoding("mono8"), RosImageKind::kGray);
   EXPECT_EQ(KindOfEncoding("32FC1"), RosImageKind::kDepth);
   EXPECT_EQ(KindOfEncoding("32FC4"), RosImageKind::kOther);
-  EXPECT_EQ(KindOfFormat("rgb8; jpeg compressed bgr8"), RosImageKind::kColor);
-  EXPECT_EQ(KindOfFormat("mono8; jpeg compressed "), RosImageKind::kGray);
-  EXPECT_EQ(KindOfFormat("jpeg"), RosImageKind::kColor);
-  EXPECT_EQ(KindOfFormat("16UC1; compressedDepth"), RosImageKind::kDepth);
+}
+
+TEST(RosImage, KnowsKindsOfCompressedImages) {
+  const auto kind_of = [](const std::string& format, const std::string& data = "") {
+    return KindOfCompressed({{}, format, data});
+  };
+  const auto png = [](int type) {
+    std::vector<uint8_t> bytes;
+    cv::imencode(".png", cv::Mat::zeros(2, 2, type), bytes);
+    return std::string(bytes.begin(), bytes.end());
+  };
+  EXPECT_EQ(kind_of("rgb8; jpeg compressed bgr8"), RosImageKind::kColor);
+  EXPECT_EQ(kind_of("mono8; jpeg compressed "), RosImageKind::kGray);
+  EXPECT_EQ(kind_of("jpeg"), RosImageKind::kColor);
+  EXPECT_EQ(kind_of("16UC1; compressedDepth"), RosImageKind::kDepth);
+  EXPECT_EQ(kind_of("16UC1; png compressed "), RosImageKind::kDepth);
+  EXPECT_EQ(kind_of("32FC1; tiff compressed "), RosImageKind::kDepth);
+  EXPECT_EQ(kind_of("16UC1; jpeg compressed "), RosImageKind::kOther);
+  EXPECT_EQ(kind_of("png", png(CV_16UC1)), RosImageKind::kDepth);
+  EXPECT_EQ(kind_of("png", png(CV_8UC3)), RosImageKind::kColor);
+}
+
+TEST(RosImage, DecodesCompressedDepthInMetres) {
+  const cv::Mat metres(2, 3, CV_32FC1, cv::Scalar(1.25));
+  std::vector<uint8_t> tiff;
+  ASSERT_TRUE(cv::imencode(".tiff", metres, tiff));
+  const std::string data(tiff.begin(), tiff.end());
+  const StoredImage image =
+      ConvertRosImage(RosCompressedImage{{}, "32FC1; tiff compressed ", data});
+  ASSERT_EQ(image.pixels.type(), CV_32FC1);
+  EXPECT_EQ(image.pixels.at<float>(1, 2), 1.25f);
 }
 
 TEST(RosCamera, TakesTheMatrixThatFitsTheImages) {
