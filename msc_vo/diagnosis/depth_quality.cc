@@ -64,7 +64,8 @@ void AddByteOrder(double swapped_ratio, Findings* findings) {
             FormatText("the two bytes of the depth values are swapped: %.0f %% of the neighbouring "
                        "measurements are closer to each other with swapped bytes",
                        100.0 * swapped_ratio),
-            "write the depth images again; PNG stores 16-bit values with the high byte first",
+            "write the depth images again: PNG stores 16-bit values with the high byte first, a "
+            "message of ROS as its is_bigendian says",
             Measurement{swapped_ratio, "ratio"}));
 }
 
