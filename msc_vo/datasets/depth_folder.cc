@@ -51,8 +51,12 @@ std::string FindDepth(const std::string& directory, const std::string& ending,
 }
 
 std::string FindColorFolder(const std::string& directory) {
-  return FirstEntry(directory, {"rgb", "color", "colour", "image", "images", "rgb_images",
-                                "color_images", "image_left", "lowres_wide"});
+  for (const char* name : {"rgb", "color", "colour", "image", "images", "rgb_images",
+                           "color_images", "image_left", "lowres_wide"}) {
+    std::string folder = FindEntry(directory, name);
+    if (IsFolder(folder)) return folder;
+  }
+  return "";
 }
 
 std::string FindColorList(const std::string& directory) {

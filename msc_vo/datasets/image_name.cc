@@ -4,6 +4,7 @@
 #include "msc_vo/datasets/image_name.h"
 
 #include <algorithm>
+#include <cctype>
 
 namespace msc_vo {
 
@@ -21,6 +22,23 @@ size_t EndOfDigits(const std::string& text, size_t begin) {
 std::string SignificantDigits(const std::string& text, size_t begin, size_t end) {
   while (begin + 1 < end && text[begin] == '0') ++begin;
   return text.substr(begin, end - begin);
+}
+
+// Whether names of equal length differ in hexadecimal digits only, without the ending.
+bool AreHexadecimal(const std::vector<std::string>& names) {
+  if (names.empty()) return false;
+  const std::string& first = names.front();
+  size_t common = std::min(first.rfind('.'), first.size());
+  const size_t end = common;
+  for (const std::string& name : names) {
+    if (name.size() != first.size()) return false;
+    const auto differs = std::mismatch(first.begin(), first.begin() + common, name.begin()).first;
+    common = static_cast<size_t>(differs - first.begin());
+  }
+  return std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+    return std::all_of(name.begin() + common, name.begin() + end,
+                       [](unsigned char c) { return std::isxdigit(c) != 0; });
+  });
 }
 
 }  // namespace
@@ -49,10 +67,7 @@ bool NaturalLess(const std::string& a, const std::string& b) {
 }
 
 void SortNames(std::vector<std::string>* names) {
-  const bool same_length = std::all_of(names->begin(), names->end(), [&](const std::string& name) {
-    return name.size() == names->front().size();
-  });
-  if (same_length) {
+  if (AreHexadecimal(*names)) {
     std::sort(names->begin(), names->end());
   } else {
     std::sort(names->begin(), names->end(), NaturalLess);

@@ -12,8 +12,8 @@ namespace msc_vo {
 /// "10.png".
 bool NaturalLess(const std::string& a, const std::string& b);
 
-/// Sorts the names of files: in alphabetical order if all have the same length, as counters with
-/// leading zeros and hexadecimal numbers do, or else in natural order.
+/// Sorts the names of files: in alphabetical order if they have equal lengths and differ in
+/// hexadecimal digits only, or else in natural order.
 void SortNames(std::vector<std::string>* names);
 
 /// The stem of the path of an image, split into its runs of digits and the text around them.

@@ -121,13 +121,14 @@ std::optional<GivenIntrinsics> ReadIntrinsicsFile(const std::string& path) {
 std::optional<ImageSize> FindSizeOf(const PinholeCamera& camera,
                                     const std::vector<ImageSize>& sizes) {
   constexpr double kMaxOffset = 0.1;
-  std::optional<ImageSize> nearest;
+  constexpr double kClearRatio = 0.5;  // the centre of a camera is as likely off that of any size
+  std::optional<ImageSize> found;
   for (const ImageSize& size : sizes) {
     const double offset = OffsetFromCentre(camera, size);
-    const bool is_nearer = !nearest || offset < OffsetFromCentre(camera, *nearest);
-    if (offset <= kMaxOffset && is_nearer) nearest = size;
+    const bool is_better = !found || offset < kClearRatio * OffsetFromCentre(camera, *found);
+    if (offset <= kMaxOffset && is_better) found = size;
   }
-  return nearest;
+  return found;
 }
 
 std::vector<std::string> FindCalibrationFiles(const std::string& folder) {

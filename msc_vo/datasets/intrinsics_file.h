@@ -25,9 +25,9 @@ struct GivenIntrinsics {
 /// h; without distortion). None if the file holds anything else or cannot be read.
 std::optional<GivenIntrinsics> ReadIntrinsicsFile(const std::string& path);
 
-/// Returns the image size, pixels, whose centre is nearest to the principal point in relation to
-/// the size; of equal ones the first. None if the point is more than a tenth of the width or height
-/// off the centre of each.
+/// Returns the image size, pixels, whose centre fits the principal point: the first one, unless the
+/// point is less than half as far from the centre of a later one, relative to the size. None if the
+/// point is more than a tenth of the width or height off the centre of each.
 std::optional<ImageSize> FindSizeOf(const PinholeCamera& camera,
                                     const std::vector<ImageSize>& sizes);
 

@@ -14,6 +14,7 @@
 #include "msc_vo/datasets/image_folder.h"
 #include "msc_vo/datasets/image_times.h"
 #include "msc_vo/datasets/name_pairing.h"
+#include "msc_vo/datasets/named_images.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/datasets/stream_times.h"
 #include "msc_vo/datasets/tum_folder.h"
@@ -36,13 +37,19 @@ bool Recognises(const std::string& directory) {
   return !ListImages(FindColorFolder(directory)).empty() && IsFolder(FindDepth(directory, ""));
 }
 
-// Pairs the images, and finds their times.
+bool HaveTimes(const std::vector<std::string>& color, const std::vector<std::string>& depth) {
+  return ReadImageNames(color).certainty == NamedTimes::kCertain &&
+         ReadImageNames(depth).certainty == NamedTimes::kCertain;
+}
+
+// Pairs the images, and finds their times: those of their names, or of files beside the images.
 void PairImages(const std::string& directory, const std::vector<std::string>& color,
                 const std::vector<std::string>& depth, SequenceIndex* index) {
   const std::string both = FindTimesFile(directory);
   const std::string of_color = FindStreamTimes(FindColorFolder(directory));
   const std::string of_depth = FindStreamTimes(FindDepth(directory, ""));
-  if (PairedByStreamTimes(of_color.empty() ? both : of_color, color, of_depth, depth, index)) {
+  if (!HaveTimes(color, depth) &&
+      PairedByStreamTimes(of_color.empty() ? both : of_color, color, of_depth, depth, index)) {
     return;
   }
   PairByName(color, depth, index);

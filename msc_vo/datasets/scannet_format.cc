@@ -31,12 +31,11 @@ namespace {
 bool Recognises(const std::string& directory) {
   const auto has_folder = [&](const char* name) { return IsFolder(FindEntry(directory, name)); };
   return has_folder("color") && has_folder("depth") &&
-         (has_folder("pose") || has_folder("intrinsic") || has_folder("intrinsics"));
+         (has_folder("pose") || has_folder("intrinsic"));
 }
 
-std::string PosePath(const SequenceEntry& entry) {
-  const fs::path color = entry.color_path;
-  return (color.parent_path().parent_path() / "pose" / (color.stem().string() + ".txt")).string();
+std::string PosePath(const std::string& folder, const SequenceEntry& entry) {
+  return PathIn(folder, fs::path(entry.color_path).stem().string() + ".txt");
 }
 
 // Size of the colour images that ScanNet publishes, for which it gives the intrinsics.
@@ -94,9 +93,10 @@ void ReadIntrinsics(const std::string& directory, SequenceIndex* index) {
     calibration.camera = of_depth->camera;
     calibration.origin = of_depth->path;
   } else if (of_color || of_depth) {
-    throw std::runtime_error((of_color ? of_color : of_depth)->path +
-                             ": cx and cy are far from the centre of the images; give the "
-                             "intrinsics of their size");
+    throw std::runtime_error(
+        (of_color ? of_color : of_depth)->path +
+        ": cx and cy are more than a tenth of the image size off the centre of "
+        "the images; write camera.txt, or give the intrinsics of their size");
   } else {
     return;
   }
@@ -105,17 +105,19 @@ void ReadIntrinsics(const std::string& directory, SequenceIndex* index) {
 
 SequenceIndex Read(const std::string& directory) {
   SequenceIndex index;
-  const fs::path folder = directory;
   PairByName(ListImages(FindEntry(directory, "color")), ListImages(FindEntry(directory, "depth")),
              &index);
   index.scale_color = true;
-  ReadPoseFiles(PosePath, &index);
-  if (index.ground_truth.empty() && IsFolder((folder / "pose").string()) &&
-      !ListFolder((folder / "pose").string()).empty() && !index.entries.empty()) {
+  const std::string poses = FindEntry(directory, "pose");
+  if (!poses.empty()) {
+    ReadPoseFiles([&poses](const SequenceEntry& entry) { return PosePath(poses, entry); }, &index);
+  }
+  if (index.ground_truth.empty() && IsFolder(poses) && !ListFolder(poses).empty() &&
+      !index.entries.empty()) {
     index.warnings.push_back(
         "there is no ground truth, because pose/ has no valid pose with the "
         "name of a colour image, such as " +
-        PosePath(index.entries.front()));
+        PosePath(poses, index.entries.front()));
   }
   ReadIntrinsics(directory, &index);
   return index;

@@ -29,7 +29,7 @@ std::vector<std::string> FilesNamed(const std::string& folder, const std::regex&
   for (const std::string& path : ListFolder(folder)) {
     const std::string name = Lowercase(fs::path(path).filename().string());
     const bool matches = std::regex_match(name, pattern);
-    if (matches && FileProblem(path, kMaxOptionsBytes).empty()) files.push_back(path);
+    if (matches && FileProblem(path).empty()) files.push_back(path);
   }
   std::sort(files.begin(), files.end());
   return files;

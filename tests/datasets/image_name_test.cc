@@ -10,6 +10,15 @@ namespace {
 
 using testing::ElementsAre;
 
+TEST(SortNames, KnowsHexadecimalNumbersFromDecimalOnes) {
+  std::vector<std::string> names = {"f00a.png", "f9ff.png", "f010.png"};
+  SortNames(&names);
+  EXPECT_THAT(names, testing::ElementsAre("f00a.png", "f010.png", "f9ff.png"));
+  names = {"10.0166.png", "9.97656.png"};
+  SortNames(&names);
+  EXPECT_THAT(names, testing::ElementsAre("9.97656.png", "10.0166.png"));
+}
+
 TEST(NaturalLess, ComparesDigitsAsNumbers) {
   EXPECT_TRUE(NaturalLess("2.png", "10.png"));
   EXPECT_FALSE(NaturalLess("10.png", "2.png"));

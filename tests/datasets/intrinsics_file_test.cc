@@ -53,6 +53,9 @@ TEST(FindSizeOf, IsThatOfTheNearestCentre) {
   EXPECT_EQ(FindSizeOf(camera, {{640, 480}, {1280, 960}})->width, 1280);
   EXPECT_EQ(FindSizeOf(camera, {{1300, 975}, {1280, 960}})->width, 1280);
   EXPECT_FALSE(FindSizeOf(camera, {{640, 480}}));
+  camera.cx = 637.0;  // far from both centres
+  camera.cy = 511.0;
+  EXPECT_EQ(FindSizeOf(camera, {{1280, 960}, {1296, 968}})->width, 1280);
 }
 
 TEST_F(IntrinsicsFileTest, FindsFilesByName) {

@@ -68,7 +68,7 @@ TEST_F(LayoutCameraTest, ReadsTheCameraOfReplica) {
 TEST_F(LayoutCameraTest, IntrinsicsOfScanNetMayBeThoseOfItsPublishedSize) {
   WriteColor("color/0.png", 160, 120);
   WriteDepth("depth/0.png", 1000, 160, 120);
-  WriteText("intrinsics/intrinsic_color.txt", "1164 0 647.5\n0 1164 483.5\n0 0 1\n");
+  WriteText("intrinsic/intrinsic_color.txt", "1164 0 647.5\n0 1164 483.5\n0 0 1\n");
   const SequenceIndex index = OpenSequence(Folder());
   ASSERT_TRUE(index.calibration.has_value());
   EXPECT_NEAR(index.calibration->camera.fx, 1164.0 * 160 / 1296, 1e-9);
