@@ -143,7 +143,6 @@ TEST_F(ColmapModelTest, HasDistortedPixelsAndTracks) {
   ASSERT_EQ(model.images.size(), 2u);
   EXPECT_EQ(model.images[1].name, "5.png");
   ASSERT_EQ(model.points.size(), 1u);
-  EXPECT_NEAR(model.points[0].error, 1.5, 1e-9);
   ASSERT_EQ(model.points[0].track.size(), 2u);
   // COLMAP's own projection: OPENCV, centres of pixels at .5.
   const ColmapModel::Image& image = model.images[1];
@@ -151,7 +150,9 @@ TEST_F(ColmapModelTest, HasDistortedPixelsAndTracks) {
   const Eigen::Vector2d u = x.head<2>() / x.z();
   const double radial = 1.0 + 0.1 * u.squaredNorm();
   const Eigen::Vector2d projected(500.0 * radial * u.x() + 320.0, 510.0 * radial * u.y() + 240.0);
-  EXPECT_LT((image.features[0].pixel - projected).norm(), 4.0);  // of which 3 px are the error
+  const double error = (image.features[0].pixel - projected).norm();
+  EXPECT_LT(error, 4.0);  // of which 3 px are in the undistorted image
+  EXPECT_NEAR(model.points[0].error, 0.5 * error, 1e-9);  // the other image has none
   EXPECT_NEAR(model.images[0].features[0].pixel.x(),
               500.0 * (4.0 / 3.5) * (1.0 + 0.1 * (16.0 + 6.25) / 12.25) + 320.0, 1e-9);
 }
@@ -177,7 +178,7 @@ TEST_F(ColmapModelTest, IsTheSameAsTextAndBinary) {
             "1 OPENCV 640 480 500 510 320 240 0.1 0 0 0\n");
   // Scalar first, world to camera: the second image has turned by 90 degrees about -y.
   EXPECT_THAT(text[1].content, testing::HasSubstr("\n2 0.707106781187 0 -0.707106781187 0 "));
-  EXPECT_THAT(text[2].content, testing::HasSubstr("\n1 4 2.5 3.5 128 128 128 1.5 1 0 2 0\n"));
+  EXPECT_THAT(text[2].content, testing::HasSubstr("\n1 4 2.5 3.5 128 128 128 1.51714 1 0 2 0\n"));
   // The sizes that follow from the format.
   EXPECT_EQ(binary[0].content.size(), 8u + 4 + 4 + 8 + 8 + 8 * 8);
   EXPECT_EQ(binary[1].content.size(), 8u + 2 * (4 + 7 * 8 + 4 + 6 + 8 + 24));

@@ -131,7 +131,7 @@ class Images(unittest.TestCase):
     def test_raw_depth_without_its_scale_is_refused(self):
         image = support.room_images()[0]
         for scale in (1000.0, 5000.0):
-            with self.assertRaisesRegex(ValueError, "depth is in metres.*1000 for millimetres"):
+            with self.assertRaisesRegex(ValueError, "depth must be in metres.*1000 for millimetres"):
                 support.room_odometry().process(1.0, image.gray,
                                                 np.rint(image.depth * scale).astype(np.float32))
 
