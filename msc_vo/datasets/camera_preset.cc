@@ -82,9 +82,9 @@ std::string GuessCameraPreset(const std::string& directory) {
   // "freiburg1_desk", "fr1", "fr1_desk" or, with the first word of a sequence of TUM, "fr1desk",
   // but neither "fr10_lab" nor "fr3nch_flat" nor "uni_freiburg1_lab".
   static const std::regex kPattern(
-      ".*rgbd_dataset_freiburg([123])_.*|(?:freiburg|fr)([123])(?:|[^a-z0-9].*|(?:desk|xyz|rpy|"
-      "room|"
-      "360|floor|plant|teddy|office|long|large|walking|sitting|struct|nostruct).*)");
+      ".*rgbd_dataset_freiburg([123])_.*|(?:freiburg|fr)([123])(?:|[^a-z0-9].*|"
+      "(?:desk|xyz|rpy|room|360|floor|plant|teddy|office|long|large|walking|sitting|struct|"
+      "nostruct).*)");
   const std::string name = Lowercase(NameOf(directory));
   std::smatch match;
   if (!std::regex_match(name, match, kPattern)) return "";

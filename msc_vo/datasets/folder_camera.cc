@@ -3,7 +3,6 @@
 
 #include "msc_vo/datasets/folder_camera.h"
 
-#include <filesystem>
 #include <optional>
 #include <stdexcept>
 
@@ -16,14 +15,7 @@
 
 namespace msc_vo {
 
-namespace fs = std::filesystem;
-
 namespace {
-
-std::string ParentOf(const std::string& directory) {
-  std::error_code error;  // set if the working directory was deleted
-  return fs::absolute(directory, error).lexically_normal().parent_path().string();
-}
 
 bool AreEqual(const PinholeCamera& a, const PinholeCamera& b) {
   return a.fx == b.fx && a.fy == b.fy && a.cx == b.cx && a.cy == b.cy;
@@ -35,8 +27,10 @@ std::optional<GivenIntrinsics> OnlyCamera(const std::vector<std::string>& files)
   for (const std::string& path : files) {
     const std::optional<GivenIntrinsics> given = ReadIntrinsicsFile(path);
     if (!given) continue;
-    if (only && !AreEqual(only->camera, given->camera)) return std::nullopt;
     if (!only) only = given;
+    if (!AreEqual(only->camera, given->camera)) return std::nullopt;
+    if (!only->depth_scale) only->depth_scale = given->depth_scale;
+    if (given->depth_scale && given->depth_scale != only->depth_scale) return std::nullopt;
   }
   return only;
 }
@@ -60,8 +54,8 @@ void ReadFolderCamera(const std::string& directory, SequenceIndex* index) {
   if (!path.empty()) index->calibration = ReadCameraFile(path);
 }
 
-void ReadOtherCamera(const std::string& directory, const LayoutDepthScale& depth_scale,
-                     SequenceIndex* index) {
+void ReadThirdPartyCamera(const std::string& directory, const LayoutDepthScale& depth_scale,
+                          SequenceIndex* index) {
   if (index->calibration || index->entries.empty()) return;
   std::optional<GivenIntrinsics> given = OnlyCamera(FindCalibrationFiles(directory));
   const bool is_own = given.has_value();
@@ -69,16 +63,20 @@ void ReadOtherCamera(const std::string& directory, const LayoutDepthScale& depth
   if (!given) return;
   if (!FitsImages(*index, &given->camera)) {
     if (!is_own) return;
-    throw std::runtime_error(given->path +
-                             ": cx and cy are far from the centre of the images; give the "
-                             "intrinsics of their size");
+    throw std::runtime_error(
+        given->path +
+        ": cx and cy are more than a tenth of the image size off the centre of "
+        "the images; write camera.txt, or give the intrinsics of their size");
   }
   Calibration calibration;
   calibration.camera = given->camera;
   calibration.depth_scale = given->depth_scale.value_or(depth_scale.units_per_metre);
   calibration.origin = given->path;
   std::string error;
-  if (!calibration.IsValid(&error)) throw std::runtime_error(given->path + ": " + error);
+  if (!calibration.IsValid(&error)) {
+    if (!is_own) return;
+    throw std::runtime_error(given->path + ": " + error);
+  }
   index->calibration = calibration;
   if (given->depth_scale || depth_scale.is_certain) return;
   index->warnings.push_back(
@@ -90,7 +88,7 @@ void ReadOtherCamera(const std::string& directory, const LayoutDepthScale& depth
 std::vector<std::string> CalibrationFilesNear(const std::string& directory) {
   if (!FolderProblem(directory).empty()) return {};
   const std::vector<std::string> own = FindCalibrationFiles(directory);
-  const std::string parent = ParentOf(directory);
+  const std::string parent = ParentFolder(directory);
   return own.empty() && FolderProblem(parent).empty() ? FindCalibrationFiles(parent) : own;
 }
 

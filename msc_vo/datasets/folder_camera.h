@@ -25,8 +25,8 @@ struct LayoutDepthScale {
 /// file gives no depth scale, it is that of the layout, with a warning if that is uncertain. Throws
 /// std::runtime_error if a file of the folder describes the camera of images of another size. The
 /// entries must be known.
-void ReadOtherCamera(const std::string& directory, const LayoutDepthScale& depth_scale,
-                     SequenceIndex* index);
+void ReadThirdPartyCamera(const std::string& directory, const LayoutDepthScale& depth_scale,
+                          SequenceIndex* index);
 
 /// Returns the paths of the files of FindCalibrationFiles() in the folder or, if there are none, in
 /// its parent; empty for a recording in one file.

@@ -61,7 +61,7 @@ SequenceIndex Read(const std::string& directory) {
   }
   ReadTumGroundTruth(directory, WholeStamps::kFrameNumbers, &index);
   ReadFolderCamera(directory, &index);
-  ReadOtherCamera(directory, {5000.0}, &index);
+  ReadThirdPartyCamera(directory, {5000.0}, &index);
   if (Recognises(directory)) index.preset = "icl-nuim";
   return index;
 }

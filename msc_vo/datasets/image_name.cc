@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 
 namespace msc_vo {
 
@@ -42,6 +43,8 @@ bool AreHexadecimal(const std::vector<std::string>& names) {
 }
 
 }  // namespace
+
+std::string StemOf(const std::string& path) { return std::filesystem::path(path).stem().string(); }
 
 bool NaturalLess(const std::string& a, const std::string& b) {
   size_t i = 0, j = 0;

@@ -8,6 +8,9 @@
 
 namespace msc_vo {
 
+/// The name of a file without folder and ending.
+std::string StemOf(const std::string& path);
+
 /// Natural order of file names: runs of digits are compared as numbers, so "2.png" precedes
 /// "10.png".
 bool NaturalLess(const std::string& a, const std::string& b);

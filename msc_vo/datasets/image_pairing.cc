@@ -20,15 +20,15 @@ namespace {
 
 // Adds the pair of images at these positions of the lists. `delay`: seconds from the colour image
 // to the depth image.
-void AddPair(const ImageLists& images, size_t color_rank, size_t depth_rank, double delay,
+void AddPair(const ImageLists& images, size_t color_position, size_t depth_position, double delay,
              SequenceIndex* index) {
-  const ListedImage& color = images.color[color_rank];
-  const ListedImage& depth = images.depth[depth_rank];
+  const ListedImage& color = images.color[color_position];
+  const ListedImage& depth = images.depth[depth_position];
   const bool same_row = color.origin == depth.origin;
   index->entries.push_back({color.stamp, color.path, depth.path,
                             same_row ? color.origin : color.origin + " and " + depth.origin, delay,
-                            color.index, depth.index, static_cast<int>(color_rank),
-                            static_cast<int>(depth_rank)});
+                            color.index, depth.index, static_cast<int>(color_position),
+                            static_cast<int>(depth_position)});
 }
 
 // Warns if one list begins and ends later than the other by the same time. Recordings may differ at

@@ -10,6 +10,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "msc_vo/datasets/image_name.h"
 #include "msc_vo/datasets/sequence_format.h"
 #include "msc_vo/datasets/stamp_precision.h"
 #include "msc_vo/datasets/time_unit.h"
@@ -41,10 +42,10 @@ bool AreNumbered(const std::vector<TextLine>& lines) {
 std::optional<std::vector<size_t>> RowsOf(size_t num_rows, const SequenceIndex& index) {
   std::vector<size_t> rows;
   for (const SequenceEntry& entry : index.entries) {
-    if (num_rows == index.num_color && entry.color_rank >= 0) {
-      rows.push_back(static_cast<size_t>(entry.color_rank));
-    } else if (num_rows == index.num_depth && entry.depth_rank >= 0) {
-      rows.push_back(static_cast<size_t>(entry.depth_rank));
+    if (num_rows == index.num_color && entry.color_position >= 0) {
+      rows.push_back(static_cast<size_t>(entry.color_position));
+    } else if (num_rows == index.num_depth && entry.depth_position >= 0) {
+      rows.push_back(static_cast<size_t>(entry.depth_position));
     } else {
       rows.push_back(rows.size());
     }
@@ -56,6 +57,42 @@ std::optional<std::vector<size_t>> RowsOf(size_t num_rows, const SequenceIndex& 
     return std::nullopt;
   }
   return rows;
+}
+
+// The row of each image by its name, with or without folder and ending; none if one is not named.
+std::optional<std::vector<size_t>> RowsByName(const ImageTimes& times,
+                                              const std::vector<std::string>& images) {
+  std::map<std::string, size_t> row_of_name;
+  for (size_t row = 0; row < times.names.size(); ++row) {
+    row_of_name[StemOf(times.names[row])] = row;
+    row_of_name[times.names[row]] = row;  // a name without ending may have a point
+  }
+  std::vector<size_t> rows;
+  for (const std::string& image : images) {
+    const auto row = row_of_name.find(StemOf(image));
+    if (row == row_of_name.end()) return std::nullopt;
+    rows.push_back(row->second);
+  }
+  return rows;
+}
+
+// The row of each entry: that of its colour or depth image if the file names the images of a
+// stream, or else by the number of rows.
+std::optional<std::vector<size_t>> RowsOf(const ImageTimes& times, const SequenceIndex& index) {
+  if (times.names.empty()) return RowsOf(times.seconds.size(), index);
+  std::vector<std::string> color, depth;
+  for (const SequenceEntry& entry : index.entries) {
+    color.push_back(entry.color_path);
+    depth.push_back(entry.depth_path);
+  }
+  const auto rows = RowsByName(times, color);
+  return rows ? rows : RowsByName(times, depth);
+}
+
+std::vector<double> TimesOfRows(const ImageTimes& times, const std::vector<size_t>& rows) {
+  std::vector<double> seconds;
+  for (const size_t row : rows) seconds.push_back(times.seconds[row]);
+  return seconds;
 }
 
 // "6 pairs of images (7 colour, 6 depth)"
@@ -73,7 +110,7 @@ void SetTimes(const std::vector<double>& times, const std::vector<size_t>& rows,
 
 // Tests whether almost all poses within the time range of the images are at the time of an image.
 bool AreAtTimesOfImages(const SequenceIndex& index) {
-  constexpr double kAlmostAll = 0.9;
+  constexpr double kAlmostAll = 0.9;  // some images have no partner
   std::vector<double> images = TimestampsOf(index.entries, &SequenceEntry::timestamp);
   std::sort(images.begin(), images.end());
   size_t num_within = 0, num_equal = 0;
@@ -104,39 +141,54 @@ std::string FindTimesFile(const std::string& directory) {
   return FirstEntry(directory, {"times.txt", "timestamps.txt"});
 }
 
-std::vector<double> ReadTimesFile(const std::string& path) {
+ImageTimes ReadTimesFile(const std::string& path) {
   std::vector<TextLine> lines = ReadTextLines(path);
-  const auto has_number = [](const TextLine& line) {
-    return std::any_of(line.fields.begin(), line.fields.end(),
-                       [](const std::string& field) { return ParseNumber(field).has_value(); });
-  };
-  if (!lines.empty() && !has_number(lines.front())) lines.erase(lines.begin());  // a header
+  if (!lines.empty() && !lines.front().HasNumber()) lines.erase(lines.begin());  // a header
   const bool begin_with_name = !lines.empty() && lines.front().fields.size() > 1 &&
                                !ParseNumber(lines.front().fields.front());
   const size_t column = begin_with_name || AreNumbered(lines) ? 1 : 0;
   RestoreFractions(column, &lines);
-  std::vector<double> times;
+  ImageTimes times;
   for (const TextLine& line : lines) {
     if (line.fields.size() <= column) line.Fail("has no time; correct the line");
     const std::string& field = line.fields[column];
     const std::optional<double> time = ParseNumber(field);
     if (!time || !std::isfinite(*time)) line.Fail("'" + field + "' is no time; correct the line");
-    if (!times.empty() && *time <= times.back()) line.Fail("the times must ascend; correct them");
-    times.push_back(*time);
+    if (!times.seconds.empty() && *time <= times.seconds.back()) {
+      line.Fail("the times must ascend; correct them");
+    }
+    times.seconds.push_back(*time);
+    if (begin_with_name) times.names.push_back(line.fields.front());
   }
-  const double rate = UnitsPerSecond(GuessTimeUnit(times));
-  for (double& time : times) time /= rate;
+  const double rate = UnitsPerSecond(GuessTimeUnit(times.seconds));
+  for (double& time : times.seconds) time /= rate;
   return times;
+}
+
+std::vector<double> TimesOfImages(const std::string& path, const std::vector<std::string>& images) {
+  const ImageTimes times = ReadTimesFile(path);
+  if (!times.names.empty()) {
+    if (const auto rows = RowsByName(times, images)) return TimesOfRows(times, *rows);
+    throw std::runtime_error(path + ": does not name all images of " +
+                             ParentFolder(images.front()));
+  }
+  if (times.seconds.size() == images.size()) return times.seconds;
+  throw std::runtime_error(
+      path + FormatText(": has %zu times for %zu images", times.seconds.size(), images.size()));
 }
 
 void AdoptTimesOfFile(const std::string& path, SequenceIndex* index) {
   if (path.empty() || !index->has_assumed_times) return;
   std::string problem;
   try {
-    const std::vector<double> times = ReadTimesFile(path);
-    const auto rows = RowsOf(times.size(), *index);
-    if (rows) return SetTimes(times, *rows, index);
-    problem = path + FormatText(": has %zu times for ", times.size()) + DescribeCounts(*index);
+    const ImageTimes times = ReadTimesFile(path);
+    const auto rows = RowsOf(times, *index);
+    if (rows) return SetTimes(times.seconds, *rows, index);
+    problem = path +
+              FormatText(times.names.empty() ? ": has %zu times for "
+                                             : ": names %zu images, but not all of ",
+                         times.seconds.size()) +
+              DescribeCounts(*index);
   } catch (const std::runtime_error& error) {
     problem = error.what();
   }

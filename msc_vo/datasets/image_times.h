@@ -14,14 +14,25 @@ namespace msc_vo {
 /// Returns the path of times.txt or timestamps.txt of a folder; empty if there is none.
 std::string FindTimesFile(const std::string& directory);
 
-/// Reads the times of images, a line for each: the first field, or the second one if the first
-/// counts the lines or is the name of the image. The first line may be a header. Returns seconds.
-/// Throws std::runtime_error naming file, line and fix if a line has no time or the times do not
-/// ascend.
-std::vector<double> ReadTimesFile(const std::string& path);
+/// The times of images, in ascending order.
+struct ImageTimes {
+  std::vector<double> seconds;
+  std::vector<std::string> names;  ///< of the images; empty if the file does not name them
+};
 
-/// Gives the images of a sequence whose times are assumed those of a file, which has one for each
-/// colour image, each depth image or each pair. Adds a warning if it does not fit.
+/// Reads the times of images, a line for each: the first field, or the second one if the first
+/// counts the lines or is the name of the image. The first line may be a header. Throws
+/// std::runtime_error naming file, line and fix if a line has no time or the times do not ascend.
+ImageTimes ReadTimesFile(const std::string& path);
+
+/// Returns the time of each image, seconds: that of the row with its name, or else of the row at
+/// its position. Throws std::runtime_error, naming the file, if an image has no row or, without
+/// names, the numbers of rows and images differ.
+std::vector<double> TimesOfImages(const std::string& path, const std::vector<std::string>& images);
+
+/// Gives the images of a sequence whose times are assumed those of a file, which names the colour
+/// or the depth images, or has one for each colour image, each depth image or each pair. Adds a
+/// warning if it does not fit.
 void AdoptTimesOfFile(const std::string& path, SequenceIndex* index);
 
 /// Gives the images of a sequence whose times are assumed those of the ground truth, pose by pose,

@@ -79,11 +79,13 @@ std::optional<PinholeCamera> CameraOf(const JsonFile& json) {
   const std::optional<double> fx = NumberOf(json, {"fx", "fl_x"}), cx = NumberOf(json, {"cx"});
   const std::optional<double> fy = NumberOf(json, {"fy", "fl_y"}), cy = NumberOf(json, {"cy"});
   if (!fx || !fy || !cx || !cy) return std::nullopt;
-  return CameraOf({*fx, *fy, *cx, *cy});
+  const double first_pixel = json.Has("fl_x") ? 0.5 : 0.0;  // its centre, in files of nerfstudio
+  return CameraOf({*fx, *fy, *cx - first_pixel, *cy - first_pixel});
 }
 
-std::optional<GivenIntrinsics> ReadJson(const std::string& path, const std::string& key) {
-  const JsonFile json(path, key);
+// `scale_keys`: of the depth scale.
+std::optional<GivenIntrinsics> ReadJson(const std::string& path, const JsonFile& json,
+                                        const std::vector<const char*>& scale_keys) {
   for (const char* coefficient : {"k1", "k2", "k3", "k4", "p1", "p2"}) {
     if (json.Has(coefficient) && json.Number(coefficient) != 0.0) return std::nullopt;
   }
@@ -91,8 +93,7 @@ std::optional<GivenIntrinsics> ReadJson(const std::string& path, const std::stri
   if (!camera) return std::nullopt;
   camera->width = WholeNumber(NumberOf(json, {"w", "width"}).value_or(0.0)).value_or(0);
   camera->height = WholeNumber(NumberOf(json, {"h", "height"}).value_or(0.0)).value_or(0);
-  std::optional<double> depth_scale;
-  if (!key.empty()) depth_scale = NumberOf(json, {"scale", "depth_scale"});
+  std::optional<double> depth_scale = NumberOf(json, scale_keys);
   std::string ignored;
   if (depth_scale && !IsValidDepthScale(*depth_scale, &ignored)) depth_scale.reset();
   return GivenIntrinsics{path, *camera, depth_scale};
@@ -109,9 +110,12 @@ double OffsetFromCentre(const PinholeCamera& camera, const ImageSize& size) {
 std::optional<GivenIntrinsics> ReadIntrinsicsFile(const std::string& path) {
   try {
     if (Lowercase(fs::path(path).extension().string()) != ".json") return ReadNumbers(path);
-    for (const char* key : {"", "camera", "intrinsic"}) {
-      std::optional<GivenIntrinsics> given = ReadJson(path, key);
-      if (given) return given;
+    const JsonFile json(path);
+    if (const auto given = ReadJson(path, json, {"depth_scale"})) return given;
+    for (const char* key : {"camera", "intrinsic"}) {
+      const std::optional<JsonFile> object = json.Object(key);
+      if (!object) continue;
+      if (const auto given = ReadJson(path, *object, {"depth_scale", "scale"})) return given;
     }
   } catch (const std::runtime_error&) {  // another kind of file
   }

@@ -22,7 +22,8 @@ struct GivenIntrinsics {
 /// Reads the intrinsics in a file: the numbers "fx fy cx cy", a 3x3, 3x4 or 4x4 camera matrix
 /// without skew, or JSON with the keys of NICE-SLAM ("camera": fx, fy, cx, cy, w, h, scale),
 /// Open3D (intrinsic_matrix column by column, width, height) or nerfstudio (fl_x, fl_y, cx, cy, w,
-/// h; without distortion). None if the file holds anything else or cannot be read.
+/// h; without distortion; the centre of the first pixel is at 0.5). A depth scale may also be in
+/// "depth_scale". None if the file holds anything else or cannot be read.
 std::optional<GivenIntrinsics> ReadIntrinsicsFile(const std::string& path);
 
 /// Returns the image size, pixels, whose centre fits the principal point: the first one, unless the
@@ -31,7 +32,7 @@ std::optional<GivenIntrinsics> ReadIntrinsicsFile(const std::string& path);
 std::optional<ImageSize> FindSizeOf(const PinholeCamera& camera,
                                     const std::vector<ImageSize>& sizes);
 
-/// Returns the paths of the files of a folder whose names say that they describe a camera, in
+/// Returns the paths of the files of a folder named like calibration files, in
 /// alphabetical order: "calibration.txt", "intrinsic.json", "camera_matrix.csv".
 std::vector<std::string> FindCalibrationFiles(const std::string& folder);
 

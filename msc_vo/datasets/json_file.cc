@@ -13,17 +13,24 @@
 
 namespace msc_vo {
 
-JsonFile::JsonFile(const std::string& path, const std::string& key) : path_(path) {
+namespace {
+
+nlohmann::json Parse(const std::string& path) {
   constexpr std::uintmax_t kMaxBytes = std::uintmax_t{16} << 20;
   nlohmann::json json =
       nlohmann::json::parse(ReadFile(path, kMaxBytes), nullptr, /*allow_exceptions=*/false);
-  if (!key.empty() && json.is_object() && json.contains(key)) json = nlohmann::json(json[key]);
-  if (!json.is_object()) {
-    throw std::runtime_error(path + ": is damaged or no JSON object; export the recording again");
-  }
-  json_ = std::make_unique<nlohmann::json>(std::move(json));
+  if (json.is_object()) return json;
+  throw std::runtime_error(path + ": is damaged or no JSON object; export the recording again");
 }
 
+}  // namespace
+
+JsonFile::JsonFile(const std::string& path) : JsonFile(path, Parse(path)) {}
+
+JsonFile::JsonFile(const std::string& path, nlohmann::json object)
+    : path_(path), json_(std::make_unique<nlohmann::json>(std::move(object))) {}
+
+JsonFile::JsonFile(JsonFile&&) = default;
 JsonFile::~JsonFile() = default;
 
 void JsonFile::Fail(const std::string& key, const std::string& problem) const {
@@ -37,6 +44,12 @@ double JsonFile::Number(const std::string& key) const {
   const nlohmann::json& value = (*json_)[key];
   if (!value.is_number() || !std::isfinite(value.get<double>())) Fail(key, "is no finite number");
   return value.get<double>();
+}
+
+std::optional<JsonFile> JsonFile::Object(const std::string& key) const {
+  const auto found = json_->find(key);
+  if (found == json_->end() || !found->is_object()) return std::nullopt;
+  return JsonFile(path_, *found);
 }
 
 std::vector<double> JsonFile::Numbers(const std::string& key, size_t count) const {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,20 +15,21 @@ namespace msc_vo {
 /// A JSON object in a file with numbers.
 class JsonFile {
  public:
-  /// With a `key`, the object is that of this key in the object of the file. Throws
-  /// std::runtime_error, naming the file, if it cannot be read or is no JSON object.
-  explicit JsonFile(const std::string& path, const std::string& key = "");
+  /// Throws std::runtime_error, naming the file, if it cannot be read or is no JSON object.
+  explicit JsonFile(const std::string& path);
+  JsonFile(JsonFile&&);
   ~JsonFile();
-  JsonFile(const JsonFile&) = delete;
-  JsonFile& operator=(const JsonFile&) = delete;
 
   bool Has(const std::string& key) const;
   /// Returns a finite number. Throws std::runtime_error, naming file and key, if there is none.
   double Number(const std::string& key) const;
-  /// The same for an array of `count` numbers.
+  /// Returns the object of a key; none if there is no object.
+  std::optional<JsonFile> Object(const std::string& key) const;
+  /// Number() for an array of `count` numbers.
   std::vector<double> Numbers(const std::string& key, size_t count) const;
 
  private:
+  JsonFile(const std::string& path, nlohmann::json object);
   [[noreturn]] void Fail(const std::string& key, const std::string& problem) const;
 
   std::string path_;

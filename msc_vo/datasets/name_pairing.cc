@@ -139,8 +139,6 @@ bool HaveSeparateNumbers(const NamedImages& color, const NamedImages& depth) {
       color.description.c_str(), depth.description.c_str()));
 }
 
-std::string StemOf(const std::string& path) { return std::filesystem::path(path).stem().string(); }
-
 std::map<std::string, std::string> PathsByStem(const std::vector<std::string>& paths) {
   std::map<std::string, std::string> path_of_stem;
   for (const std::string& path : paths) path_of_stem.emplace(StemOf(path), path);
@@ -151,7 +149,7 @@ std::map<std::string, std::string> PathsByStem(const std::vector<std::string>& p
 // pairs of equal names: then the names are no numbers.
 bool LeavesOutPairs(const std::vector<std::string>& color_paths,
                     const std::vector<std::string>& depth_paths, const NamedImages& color) {
-  constexpr double kMaxRatio = 0.1;
+  constexpr double kMaxRatio = 0.1;  // of files of another kind among the images
   const auto depth_of_stem = PathsByStem(depth_paths), kept = PathsByStem(color.paths);
   const auto num_left_out =
       std::count_if(color_paths.begin(), color_paths.end(), [&](const std::string& path) {
@@ -214,7 +212,8 @@ std::optional<TimeRange> RangeOfTimes(const NamedImages& images) {
   return RangeOf(images.times, images.unit);
 }
 
-// Pairs the images by what their names hold. The paths are those of all images of the streams.
+// Pairs the images by the times or the numbers in their names. The paths are those of all images of
+// the streams.
 void PairByContents(const NamedImages& color, const NamedImages& depth,
                     const std::vector<std::string>& color_paths,
                     const std::vector<std::string>& depth_paths, SequenceIndex* index) {
@@ -234,15 +233,15 @@ void PairByContents(const NamedImages& color, const NamedImages& depth,
   PairByPosition(color, depth, index);
 }
 
-void SetRanks(const std::vector<std::string>& color_paths,
-              const std::vector<std::string>& depth_paths, SequenceIndex* index) {
-  std::map<std::string, int> ranks;
+void SetPositions(const std::vector<std::string>& color_paths,
+                  const std::vector<std::string>& depth_paths, SequenceIndex* index) {
+  std::map<std::string, int> positions;
   for (const std::vector<std::string>* paths : {&color_paths, &depth_paths}) {
-    for (size_t i = 0; i < paths->size(); ++i) ranks[(*paths)[i]] = static_cast<int>(i);
+    for (size_t i = 0; i < paths->size(); ++i) positions[(*paths)[i]] = static_cast<int>(i);
   }
   for (SequenceEntry& entry : index->entries) {
-    entry.color_rank = ranks.at(entry.color_path);
-    entry.depth_rank = ranks.at(entry.depth_path);
+    entry.color_position = positions.at(entry.color_path);
+    entry.depth_position = positions.at(entry.depth_path);
   }
   index->num_color = color_paths.size();
   index->num_depth = depth_paths.size();
@@ -260,7 +259,7 @@ void PairByName(const std::vector<std::string>& color_paths,
     PairByContents(color, depth, color_paths, depth_paths, index);
   }
   index->num_listed = std::min(color_paths.size(), depth_paths.size());
-  SetRanks(color_paths, depth_paths, index);
+  SetPositions(color_paths, depth_paths, index);
 }
 
 }  // namespace msc_vo

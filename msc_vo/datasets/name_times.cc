@@ -132,7 +132,7 @@ std::optional<CalendarTime> ReadCalendarTime(const NameParts& name, size_t first
 // Whether the numbers count the images of each second, as those of a burst do: they ascend by one
 // or restart, and end far below the next second.
 bool CountWithinSeconds(const Texts& seconds, const Texts& column) {
-  constexpr double kFarBelow = 0.9;  // of a second
+  constexpr double kFarBelow = 0.9;  // of a second: fractions would come closer to the next one
   double largest = 0.0;
   const std::vector<double> numbers = Numbers(column);
   for (size_t i = 0; i < numbers.size(); ++i) {

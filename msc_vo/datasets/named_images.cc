@@ -22,8 +22,6 @@ namespace {
 
 using Names = std::vector<NameParts>;
 
-std::string Stem(const std::string& path) { return fs::path(path).stem().string(); }
-
 // Whether the run of digits is the fraction of the run before it.
 bool IsFraction(const NameParts& name, size_t run, bool is_behind_fraction) {
   return run > 0 && name.texts[run] == "." && !is_behind_fraction;
@@ -64,7 +62,7 @@ NameParts WithFractions(const NameParts& name) {
 Names KeepPattern(NamedImages* images) {
   std::map<std::string, std::vector<std::string>> paths_of_pattern;
   for (const std::string& path : images->paths) {
-    paths_of_pattern[PatternOf(SplitName(Stem(path)))].push_back(path);
+    paths_of_pattern[PatternOf(SplitName(StemOf(path)))].push_back(path);
   }
   const auto largest = std::max_element(
       paths_of_pattern.begin(), paths_of_pattern.end(),
@@ -82,7 +80,7 @@ Names KeepPattern(NamedImages* images) {
   }
   images->paths = largest->second;
   Names names;
-  for (const std::string& path : images->paths) names.push_back(SplitName(Stem(path)));
+  for (const std::string& path : images->paths) names.push_back(SplitName(StemOf(path)));
   const size_t num_runs = names.front().digits.size();
   const bool is_uniform = std::all_of(names.begin(), names.end(), [&](const NameParts& name) {
     return name.digits.size() == num_runs;

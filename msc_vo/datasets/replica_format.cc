@@ -104,7 +104,7 @@ SequenceIndex Read(const std::string& directory) {
   const std::string poses = PathIn(directory, "traj.txt");
   if (HasEntry(poses)) ReadPoses(poses, ReadImageNames(color), &index);
   ReadFolderCamera(directory, &index);
-  ReadOtherCamera(directory, {6553.5}, &index);
+  ReadThirdPartyCamera(directory, {6553.5}, &index);
   return index;
 }
 

@@ -35,8 +35,8 @@ struct SequenceEntry {
   int depth_index = -1;
   /// Positions of the images in their streams, before images without a partner were left out; -1:
   /// not known.
-  int color_rank = -1;
-  int depth_rank = -1;
+  int color_position = -1;
+  int depth_position = -1;
 };
 
 /// Raw depth values at which the images of a sequence are clipped.
@@ -55,7 +55,7 @@ struct SequenceIndex {
   std::string directory;               ///< without trailing slash; or the file of a recording
   std::vector<SequenceEntry> entries;  ///< in order of time, stamps unique
   size_t num_listed = 0;  ///< images that the source names, of the stream with fewer of them
-  size_t num_color = 0;   ///< colour images before pairing, see SequenceEntry::color_rank
+  size_t num_color = 0;   ///< colour images before pairing, see SequenceEntry::color_position
   size_t num_depth = 0;   ///< the same of depth
   TimeUnit stamp_unit = TimeUnit::kSeconds;  ///< original unit of the image stamps
   bool has_assumed_times = false;  ///< no source gives times; they follow from an assumed rate

@@ -148,7 +148,7 @@ std::string DescribeMissing(const CameraSettings& settings) {
 // read.
 std::string DescribeCalibrationFile(const std::string& path, const SequenceIndex& index) {
   const std::optional<GivenIntrinsics> given = ReadIntrinsicsFile(path);
-  if (!given) return path + " may describe the camera, but is in no format that is read";
+  if (!given) return path + " may describe the camera, but its format is not supported";
   const PinholeCamera& k = given->camera;
   const std::string unit = given->depth_scale ? FormatNumber(*given->depth_scale) : "DEPTH_SCALE";
   ImageSize size = {k.width, k.height};
@@ -194,7 +194,7 @@ Calibration GuessedPreset(SequenceIndex* index) {
   guess.readout_origin = Calibration::kSelfCalibrated;
   if (IsIdentified(*index)) return guess;
   std::string warning = "the camera is not known; that of " + index->preset +
-                        " is a guess from the names of files and folders";
+                        " is guessed from the names of files and folders";
   if (guess.camera.fy < 0.0) {
     warning += ", with fy < 0 for mirrored images: if they are not mirrored, the world is";
   }
@@ -267,8 +267,7 @@ void SetMissingSize(const std::optional<ImageSize>& size, const SequenceIndex& i
 }
 
 // Colour is scaled to the size of depth: so is a camera of the stored colour images.
-void FitToScaledColor(const ImageSize& depth, const SequenceIndex& index,
-                      Calibration* calibration) {
+void ScaleToDepth(const ImageSize& depth, const SequenceIndex& index, Calibration* calibration) {
   const std::optional<ImageSize> stored = FindImageSize(index, ImageKind::kColor);
   const PinholeCamera recorded = calibration->Recorded();
   if (!stored || calibration->depth_camera || !HaveSimilarShape(*stored, depth)) return;
@@ -281,7 +280,7 @@ void FitToImages(std::optional<int> max_width, SequenceIndex* index, Calibration
   const std::optional<ImageSize> depth = FindImageSize(*index, ImageKind::kDepth);
   std::optional<ImageSize> color =
       index->scale_color ? depth : FindImageSize(*index, ImageKind::kColor);
-  if (index->scale_color && depth) FitToScaledColor(*depth, *index, calibration);
+  if (index->scale_color && depth) ScaleToDepth(*depth, *index, calibration);
   if (!color && !calibration->depth_camera) color = depth;  // registered to colour
   SetMissingSize(color, *index, ImageKind::kColor, &calibration->camera);
   if (calibration->depth_camera) {

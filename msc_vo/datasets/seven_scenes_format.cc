@@ -104,10 +104,10 @@ bool ReadInfo(const std::string& path, SequenceIndex* index) {
 void ReadIntrinsics(const std::string& directory, SequenceIndex* index) {
   ReadFolderCamera(directory, index);
   if (index->calibration || index->entries.empty()) return;
-  for (const fs::path& folder : {fs::path(directory), fs::path(directory).parent_path()}) {
-    if (ReadInfo(FirstEntry(folder.string(), {"info.txt", "_info.txt"}), index)) return;
+  for (const std::string& folder : {directory, ParentFolder(directory)}) {
+    if (ReadInfo(FirstEntry(folder, {"info.txt", "_info.txt"}), index)) return;
   }
-  ReadOtherCamera(directory, {kMillimetres, /*is_certain=*/true}, index);
+  ReadThirdPartyCamera(directory, {kMillimetres, /*is_certain=*/true}, index);
 }
 
 SequenceIndex Read(const std::string& directory) {

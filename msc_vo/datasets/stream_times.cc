@@ -41,27 +41,20 @@ std::optional<std::vector<ListedImage>> TimedImages(const std::string& file,
                                                     SequenceIndex* index) {
   std::vector<ListedImage> images;
   try {
-    const std::vector<double> times = ReadTimesFile(file);
-    if (times.size() != paths.size()) {
-      throw std::runtime_error(
-          file + FormatText(": has %zu times for %zu images", times.size(), paths.size()));
-    }
+    const std::vector<double> times = TimesOfImages(file, paths);
     for (size_t i = 0; i < paths.size(); ++i) images.push_back({times[i], paths[i], paths[i]});
   } catch (const std::runtime_error& error) {
     index->warnings.push_back(error.what() + std::string("; the file is not used"));
     return std::nullopt;
   }
+  std::sort(images.begin(), images.end(),
+            [](const ListedImage& a, const ListedImage& b) { return a.stamp < b.stamp; });
   return images;
 }
 
 // The number of lines without a header.
 size_t CountRows(const std::vector<TextLine>& lines) {
-  if (lines.empty()) return 0;
-  const std::vector<std::string>& first = lines.front().fields;
-  const bool has_number = std::any_of(first.begin(), first.end(), [](const std::string& field) {
-    return ParseNumber(field).has_value();
-  });
-  return lines.size() - (has_number ? 0 : 1);
+  return lines.empty() || lines.front().HasNumber() ? lines.size() : lines.size() - 1;
 }
 
 }  // namespace

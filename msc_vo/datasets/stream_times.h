@@ -15,9 +15,9 @@ namespace msc_vo {
 /// empty if there is none.
 std::string FindStreamTimes(const std::string& folder);
 
-/// Pairs the images by the times of files, see ReadTimesFile(), one for each stream, with a line
-/// for each image; returns whether it did. Adds a warning if a file does not fit. Either path may
-/// be empty: then it does nothing.
+/// Pairs the images by the times of files, see TimesOfImages(), one for each stream; returns
+/// whether it did. Adds a warning if a file does not fit. Either path may be empty: then it does
+/// nothing.
 bool PairedByStreamTimes(const std::string& color_file, const std::vector<std::string>& color,
                          const std::string& depth_file, const std::vector<std::string>& depth,
                          SequenceIndex* index);

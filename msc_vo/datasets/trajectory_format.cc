@@ -196,7 +196,7 @@ void TrajectoryFile::LeaveOut(double time) {
 }
 
 std::string TrajectoryFile::DescribeLeftOut() const {
-  constexpr char kReason[] = "with nan or inf or a quaternion of zeros";
+  constexpr char kReason[] = "with nan, inf or a zero quaternion";
   if (num_left_out == 0) return "";
   return num_left_out == 1 ? FormatText("1 row %s is left out", kReason)
                            : FormatText("%d rows %s are left out", num_left_out, kReason);
@@ -251,9 +251,8 @@ void ShareStamps(const std::string& reference_path, const std::string& estimate_
   const TrajectoryFile& timed = reference->has_stamps ? *reference : *estimate;
   if (timed.num_left_out > 0) {
     throw std::runtime_error((reference->has_stamps ? reference_path : estimate_path) +
-                             ": has rows with nan, inf or a quaternion of zeros, so that it cannot "
-                             "be compared row by row "
-                             "with " +
+                             ": has rows with nan, inf or a zero quaternion, so that it cannot be "
+                             "compared row by row with " +
                              without + ", which has no time stamps; correct these rows");
   }
   CopyStamps(timed, reference->has_stamps ? estimate : reference);

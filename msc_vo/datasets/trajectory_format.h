@@ -47,7 +47,7 @@ struct TrajectoryFile {
 
   /// Counts a row without a pose; `time` is its time stamp.
   void LeaveOut(double time);
-  /// "2 rows with nan or inf or a quaternion of zeros are left out"; empty if none is.
+  /// "2 rows with nan, inf or a zero quaternion are left out"; empty if none is.
   std::string DescribeLeftOut() const;
 };
 

@@ -30,9 +30,9 @@ inline constexpr char kReferenceComment[] = "poses of ";
 /// ReadTumEntries(), which must be called first.
 void ReadTumGroundTruth(const std::string& directory, WholeStamps whole, SequenceIndex* index);
 
-/// Reads a trajectory as ground truth. The entries must be known: their time range tells the unit
-/// of stamps, unless a header names it. Poses without stamps are those of the images in order, see
-/// AssignPosesInOrder(). Adds a warning if the file holds no poses.
+/// Reads a trajectory as ground truth. The entries must be known: their time range determines the
+/// unit of the stamps, unless a header names it. Poses without stamps are those of the images in
+/// order, see AssignPosesInOrder(). Adds a warning if the file holds no poses.
 void ReadGroundTruthFile(const std::string& path, WholeStamps whole, SequenceIndex* index);
 
 /// Returns the path of the first *.gt.freiburg file of the folder; empty if there is none.

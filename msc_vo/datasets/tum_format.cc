@@ -26,7 +26,7 @@ SequenceIndex Read(const std::string& directory) {
   ReadTumEntries(directory, WholeStamps::kTimes, &index);
   ReadTumGroundTruth(directory, WholeStamps::kTimes, &index);
   ReadFolderCamera(directory, &index);
-  ReadOtherCamera(directory, {5000.0}, &index);
+  ReadThirdPartyCamera(directory, {5000.0}, &index);
   index.preset = GuessCameraPreset(directory);
   return index;
 }

@@ -12,8 +12,8 @@ namespace msc_vo {
 ///   x + w = cos(|w|) x + sin(|w|) / |w| (w_1 e_1 + w_2 e_2)
 ///
 /// w: radians. e_1, e_2: unit vectors that complete x to an orthonormal basis, those of
-/// ceres::SphereManifold. Its tangent is twice the angle in Ceres 2.1, which would put covariances
-/// in half radians, and the angle in later versions.
+/// ceres::SphereManifold, whose own tangent is twice the angle in Ceres 2.1 and the angle in later
+/// versions.
 class UnitVectorManifold final : public ceres::Manifold {
  public:
   UnitVectorManifold() {

@@ -127,7 +127,7 @@ KeyframeId Representative(const Map& map, KeyframeId id) {
 
 // A loop between keyframes of the map, with the relative pose after later bundle adjustment;
 // std::nullopt if it is of another map, or links a keyframe to itself.
-std::optional<PoseGraphEdge> Represent(const Map& map, const PoseGraphEdge& loop) {
+std::optional<PoseGraphEdge> LoopBetweenKeyframes(const Map& map, const PoseGraphEdge& loop) {
   const KeyframeId from = Representative(map, loop.from), to = Representative(map, loop.to);
   if (from == kNoId || to == kNoId || from == to) return std::nullopt;
   const auto drift = [&map](KeyframeId a, KeyframeId b) {
@@ -154,7 +154,7 @@ PoseGraph MakeKeyframeGraph(const Map& map, const std::vector<PoseGraphEdge>& lo
   for (const auto& [id, keyframe] : map.keyframes()) graph.poses[id] = keyframe.cam_from_world;
   graph.edges = KeyframeLinks(map, systematic).Edges();
   for (const PoseGraphEdge& loop : loops) {
-    if (const auto edge = Represent(map, loop)) graph.edges.push_back(*edge);
+    if (const auto edge = LoopBetweenKeyframes(map, loop)) graph.edges.push_back(*edge);
   }
   return graph;
 }
@@ -164,7 +164,7 @@ std::vector<PoseGraphEdge> LoopsBetweenKeyframes(const std::vector<SavedSubMap>&
   std::vector<PoseGraphEdge> edges;
   for (const PoseGraphEdge& loop : loops) {
     for (const SavedSubMap& submap : submaps) {
-      if (const auto edge = Represent(submap.map, loop)) edges.push_back(*edge);
+      if (const auto edge = LoopBetweenKeyframes(submap.map, loop)) edges.push_back(*edge);
     }
   }
   return edges;

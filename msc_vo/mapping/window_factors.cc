@@ -104,7 +104,7 @@ WindowContext MakeWindowContext(const Map& map, const WindowData& window,
   return context;
 }
 
-void HoldUnlinkedKeyframes(const Map& map, WindowData* window) {
+void FixGaugeOfUnlinkedKeyframes(const Map& map, WindowData* window) {
   KeyframeGroups groups(*window);  // its first nodes are the keyframes of the window
   std::set<size_t> held;
   for (size_t i = 0; i < window->keyframes.size(); ++i) {

@@ -66,10 +66,10 @@ using WindowFactorCallback = std::function<WindowFactors(const WindowContext&)>;
 WindowContext MakeWindowContext(const Map& map, const WindowData& window,
                                 const std::vector<ExtraBlock>& extra_blocks);
 
-/// Holds the gauge of every group of keyframes that neither landmarks nor custom factors link to a
+/// Fixes the gauge of every group of keyframes that neither landmarks nor custom factors link to a
 /// fixed one, by its oldest keyframe. A group with custom factors, which may measure where it is,
 /// gets a prior: the present pose with the covariance of the step (Map::StepCovariance). In a group
 /// without factors or without that covariance, the keyframe is fixed.
-void HoldUnlinkedKeyframes(const Map& map, WindowData* window);
+void FixGaugeOfUnlinkedKeyframes(const Map& map, WindowData* window);
 
 }  // namespace msc_vo

@@ -73,7 +73,7 @@ std::unique_ptr<WindowTask> WindowOptimizer::Begin(const BundleAdjustmentOptions
   pairs_.Add(pairs, &window);
   if (factor_callback_) AddCustomFactors(*submap, &window);
   const bool has_planes = use_planes && !submap->planes.empty();
-  if (factor_callback_ || has_planes) HoldUnlinkedKeyframes(submap->map, &window);
+  if (factor_callback_ || has_planes) FixGaugeOfUnlinkedKeyframes(submap->map, &window);
   if (has_planes) submap->planes.AddTo(submap->map, &window);  // links no keyframes
   if (observer_) observer_(keyframe, options, window);
   return std::unique_ptr<WindowTask>(new WindowTask(options, std::move(window)));

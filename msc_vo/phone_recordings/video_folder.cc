@@ -46,7 +46,7 @@ bool IsVideoFolder(const std::string& directory) {
 }
 
 std::vector<double> ReadTimes(const std::string& path, size_t num_images) {
-  std::vector<double> times = ReadTimesFile(path);
+  std::vector<double> times = ReadTimesFile(path).seconds;
   if (times.size() != num_images) {
     throw std::runtime_error(path + FormatText(": has %zu times for %zu images; write one line for "
                                                "each image of the video",
@@ -62,8 +62,8 @@ std::vector<double> FindTimes(const std::string& directory, const VideoImages& v
     try {
       return ReadTimes(path, depth.size());
     } catch (const std::runtime_error& error) {
-      if (Lowercase(fs::path(path).stem().string()) == "times")
-        throw;  // the other one may be of another stream
+      // timestamps.txt may be of another stream.
+      if (Lowercase(fs::path(path).stem().string()) == "times") throw;
       index->warnings.push_back(error.what() + std::string("; the file is not used"));
     }
   }

@@ -27,8 +27,7 @@ std::string DepthUnitsError(const cv::Mat& depth) {
   if (values.size() < kEnough || *values.rbegin() <= kFarthest) return "";
   return FormatText(
       "depth must be in metres, but all values are whole numbers, up to %g: divide them by the "
-      "units "
-      "per metre (1000 for millimetres)",
+      "units per metre (1000 for millimetres)",
       static_cast<double>(*values.rbegin()));
 }
 

@@ -103,6 +103,11 @@ std::string PathIn(const std::string& folder, const std::string& name) {
   return (fs::path(folder) / name).string();
 }
 
+std::string ParentFolder(const std::string& folder) {
+  std::error_code error;  // set if the working directory was deleted
+  return fs::absolute(folder, error).lexically_normal().parent_path().string();
+}
+
 std::string FindEntry(const std::string& folder, const std::string& name) {
   return FirstEntry(folder, {name});
 }

@@ -23,6 +23,9 @@ bool HasEntry(const std::string& path);
 /// Returns the path of an entry of a folder.
 std::string PathIn(const std::string& folder, const std::string& name);
 
+/// Returns the absolute path of the folder that holds a folder.
+std::string ParentFolder(const std::string& folder);
+
 /// Returns the path of the entry of a folder with this name, or else of one whose name differs in
 /// the case of its letters only ("RGB" for "rgb"); empty if there is neither.
 std::string FindEntry(const std::string& folder, const std::string& name);

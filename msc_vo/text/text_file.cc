@@ -47,6 +47,11 @@ void TextLine::Fail(const std::string& problem) const {
   throw std::runtime_error(message);
 }
 
+bool TextLine::HasNumber() const {
+  return std::any_of(fields.begin(), fields.end(),
+                     [](const std::string& field) { return ParseNumber(field).has_value(); });
+}
+
 std::string ReadText(const std::string& path, std::uintmax_t max_bytes) {
   std::string content = ReadFile(path, max_bytes);
   if (IsWideText(content)) {

@@ -25,6 +25,8 @@ struct TextLine {
   std::string Where() const;
   /// Throws std::runtime_error "file:12: problem".
   [[noreturn]] void Fail(const std::string& problem) const;
+  /// Tests whether a field is a number; a header has none.
+  bool HasNumber() const;
 };
 
 /// Returns the contents of a text file without a UTF-8 byte order mark. The line ends CRLF remain;

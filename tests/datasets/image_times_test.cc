@@ -47,7 +47,7 @@ class ImageTimesTest : public TemporaryFolder {
   }
   std::vector<double> ReadTimes(const std::string& text) {
     WriteText("t.txt", text);
-    return ReadTimesFile(Path("t.txt"));
+    return ReadTimesFile(Path("t.txt")).seconds;
   }
 };
 
@@ -58,6 +58,21 @@ TEST_F(ImageTimesTest, ImagesWithoutTimesHaveThoseOfTheirPoses) {
     EXPECT_THAT(StampsOf(index), testing::Pointwise(testing::DoubleNear(2e-6), Times(first, rate)));
     EXPECT_THAT(index.warnings, ElementsAre(Names("groundtruth.txt", FormatText("%g", rate))));
   }
+}
+
+// Names need not be in the order of the times.
+TEST_F(ImageTimesTest, RowsWithNamesAreThoseOfTheseImages) {
+  for (const char* name : {"ca", "ab", "be"}) {
+    WriteColor(std::string("rgb/") + name + ".png");
+    WriteDepth(std::string("depth/") + name + ".png");
+  }
+  WriteText("times.txt", "rgb/ca.png 1.0\nrgb/ab.png 1.1\nrgb/be.png 1.3\n");
+  const SequenceIndex index = OpenSequence(Folder());
+  EXPECT_THAT(StampsOf(index), testing::ElementsAre(1.0, 1.1, 1.3));
+  EXPECT_THAT(index.entries.front().color_path, testing::EndsWith("ca.png"));
+  EXPECT_THAT(TimesOfImages(Path("times.txt"), {Path("rgb/ab.png"), Path("rgb/ca.png")}),
+              testing::ElementsAre(1.1, 1.0));
+  EXPECT_THROW(TimesOfImages(Path("times.txt"), {Path("rgb/xx.png")}), std::runtime_error);
 }
 
 TEST_F(ImageTimesTest, PosesAt30HertzConfirmTheTimes) {

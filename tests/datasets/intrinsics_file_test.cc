@@ -25,7 +25,8 @@ TEST_F(IntrinsicsFileTest, ReadsNumbersMatricesAndJson) {
            {"k4.txt", "500 0 320 0\n0 501 240 0\n0 0 1 0\n0 0 0 1\n"},
            {"cam_params.json", R"({"camera": {"fx": 500, "fy": 501, "cx": 320, "cy": 240}})"},
            {"intrinsic.json", R"({"intrinsic_matrix": [500, 0, 0, 0, 501, 0, 320, 240, 1]})"},
-           {"transforms.json", R"({"fl_x": 500, "fl_y": 501, "cx": 320, "cy": 240, "k1": 0})"}}) {
+           {"transforms.json",
+            R"({"fl_x": 500, "fl_y": 501, "cx": 320.5, "cy": 240.5, "k1": 0})"}}) {
     const std::optional<GivenIntrinsics> given = Read(name, text);
     ASSERT_TRUE(given.has_value()) << name;
     EXPECT_EQ(given->camera.fx, 500.0);
@@ -33,6 +34,15 @@ TEST_F(IntrinsicsFileTest, ReadsNumbersMatricesAndJson) {
     EXPECT_EQ(given->camera.cx, 320.0);
     EXPECT_EQ(given->camera.cy, 240.0);
   }
+}
+
+TEST_F(IntrinsicsFileTest, ReadsDepthScalesOfJson) {
+  const std::string camera = R"("fx": 500, "fy": 501, "cx": 320, "cy": 240)";
+  EXPECT_EQ(Read("a.json", "{" + camera + R"(, "depth_scale": 1000, "scale": 2})")->depth_scale,
+            1000.0);
+  EXPECT_EQ(Read("b.json", R"({"camera": {)" + camera + R"(, "scale": 6553.5}})")->depth_scale,
+            6553.5);
+  EXPECT_FALSE(Read("c.json", "{" + camera + R"(, "scale": 1000})")->depth_scale);  // of the scene
 }
 
 TEST_F(IntrinsicsFileTest, OtherContentsAreNoCamera) {

@@ -35,7 +35,7 @@ Map MapWithSteps(int num_keyframes) {
   return map;
 }
 
-TEST(HoldUnlinkedKeyframes, HoldsTheOldestOfEveryGroup) {
+TEST(FixGaugeOfUnlinkedKeyframes, ConstrainsTheOldestOfEveryGroup) {
   WindowData window;
   for (int id = 0; id < 8; ++id) window.keyframes.push_back({10 + id, Rigid3(), id == 1});
   const auto observe_point = [&](int64_t keyframe, int64_t point) {
@@ -56,14 +56,14 @@ TEST(HoldUnlinkedKeyframes, HoldsTheOldestOfEveryGroup) {
       {"a", nullptr, nullptr, {BlockId::Pose(16), BlockId::Extra(0), BlockId::Pose(10)}},
       {"b", nullptr, nullptr, {BlockId::Extra(0), BlockId::Pose(15)}},
       {"c", nullptr, nullptr, {BlockId::Pose(14)}}};
-  HoldUnlinkedKeyframes(MapWithSteps(18), &window);
+  FixGaugeOfUnlinkedKeyframes(MapWithSteps(18), &window);
   EXPECT_THAT(FixedKeyframes(window), testing::ElementsAre(11, 17));
   EXPECT_THAT(KeyframesWithPrior(window), testing::ElementsAre(13, 14));
   EXPECT_DOUBLE_EQ(window.pose_priors[0].covariance(0, 0), 0.01 * 0.01);
 }
 
 // A factor links keyframes through the landmarks that it is about as well.
-TEST(HoldUnlinkedKeyframes, FollowsFactorsOnLandmarks) {
+TEST(FixGaugeOfUnlinkedKeyframes, FollowsFactorsOnLandmarks) {
   WindowData window;
   for (int id = 0; id < 8; ++id) window.keyframes.push_back({id, Rigid3(), id == 0});
   const auto observe = [&](int64_t keyframe, int64_t point) {
@@ -81,7 +81,7 @@ TEST(HoldUnlinkedKeyframes, FollowsFactorsOnLandmarks) {
       {"plane", nullptr, nullptr, {BlockId::Point(103), BlockId::Extra(0)}},
       {"plane", nullptr, nullptr, {BlockId::Point(104), BlockId::Extra(0)}},
       {"line", nullptr, nullptr, {BlockId::Line(102), BlockId::Axes(), BlockId::Pose(5)}}};
-  HoldUnlinkedKeyframes(MapWithSteps(8), &window);
+  FixGaugeOfUnlinkedKeyframes(MapWithSteps(8), &window);
   EXPECT_THAT(FixedKeyframes(window), testing::ElementsAre(0, 4, 7));
   EXPECT_THAT(KeyframesWithPrior(window), testing::ElementsAre(3, 5));
 }

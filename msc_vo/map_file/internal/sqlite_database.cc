@@ -238,8 +238,10 @@ SqliteDatabase::SqliteDatabase(const std::string& path, Access access) : path_(p
   // Nothing in a file of others is executed, and its pages are checked before they are used.
   Execute("PRAGMA trusted_schema = OFF");
   Execute("PRAGMA cell_size_check = ON");
-  if (access == Access::kRead) RefusePartOfAPage();
-  if (access != Access::kWrite) return;
+  if (access == Access::kRead) {
+    RefusePartOfAPage();
+    return;
+  }
   // Of a new file: half the default, as the last page of each blob is half empty on average. An
   // image of 2000 bytes fits into one.
   Execute("PRAGMA page_size = 2048");
