@@ -45,18 +45,15 @@ std::optional<std::array<double, 9>> ParseRow(const TextLine& line, const PoseCo
   return is_valid ? std::optional(values) : std::nullopt;
 }
 
-bool IsFinite(const std::array<double, 9>& values) {
-  return std::all_of(values.begin(), values.end(),
-                     [](double value) { return std::isfinite(value); });
-}
-
 Eigen::Quaterniond QuaternionOf(const std::array<double, 9>& values) {
   return {values[8], values[5], values[6], values[7]};
 }
 
 // Tests for a row without a pose, as programs write for lost frames.
 bool IsLost(const std::array<double, 9>& values) {
-  return !IsFinite(values) || QuaternionOf(values).coeffs().isZero(0.0);
+  const auto is_finite = [](double value) { return std::isfinite(value); };
+  return !std::all_of(values.begin(), values.end(), is_finite) ||
+         QuaternionOf(values).coeffs().isZero(0.0);
 }
 
 // Whether the row has the columns, and a quaternion in them.
@@ -147,10 +144,11 @@ void RefuseOtherQuaternions(const std::vector<TextLine>& rows, const PoseColumns
   for (size_t other = columns.time.value_or(0) + 1; other + 4 <= rows.front().fields.size();
        ++other) {
     if (other == own || QuaternionError(rows, other) > 0.1 * error) continue;
-    rows.front().Fail(FormatText(
-        "columns %zu-%zu rather than %zu-%zu have the length of a quaternion; name the columns in "
-        "a header, '# time qx qy qz qw tx ty tz'",
-        other + 1, other + 4, own + 1, own + 4));
+    throw NotATrajectory(
+        rows.front().Where() +
+        FormatText(": columns %zu-%zu rather than %zu-%zu have the length of a quaternion; name "
+                   "the columns in a header, '# time qx qy qz qw tx ty tz'",
+                   other + 1, other + 4, own + 1, own + 4));
   }
 }
 
@@ -207,7 +205,7 @@ void CheckStampPrecision(const std::string& path, const std::vector<std::string>
   }
   if (2 * num_repeated <= sorted.size()) return;
   const std::string problem = DescribeLostDigits(stamps);
-  if (!problem.empty()) throw std::runtime_error(path + ": " + problem);
+  if (!problem.empty()) throw NotATrajectory(path + ": " + problem);
 }
 
 class TableReader {
@@ -242,10 +240,15 @@ class TableReader {
 
   TrajectoryFile Read() {
     TrajectoryFile file;
-    file.format = IsScalarFirst(columns_) ? TrajectoryFormat::kEuroc : TrajectoryFormat::kTum;
+    const bool is_euroc = IsScalarFirst(columns_) && (!is_named_ || rows_.front().has_delimiters);
+    file.format = is_euroc ? TrajectoryFormat::kEuroc : TrajectoryFormat::kTum;
     file.has_stamps = columns_.time.has_value();
     file.unit = columns_.unit;
-    if (!is_named_ && file.format == TrajectoryFormat::kEuroc) file.unit = TimeUnit::kNanoseconds;
+    // The header of EuRoC need not name the unit.
+    const bool is_named_euroc = is_named_ && !file.unit && columns_.time == 0u;
+    if (is_euroc && (!is_named_ || (is_named_euroc && LooksLikeEuroc(rows_)))) {
+      file.unit = TimeUnit::kNanoseconds;
+    }
     const double rate = UnitsPerSecond(file.unit.value_or(TimeUnit::kSeconds));
     TimedPose pose;
     std::vector<std::string> stamps;
@@ -354,7 +357,8 @@ PoseRows ReadPoseRows(const std::string& path, bool any_header) {
     if (fields.empty()) continue;
     const bool is_comment = fields[0][0] == '#';
     if (!is_comment && HasDecimalCommas(text)) {
-      TextLine{path, number, fields, ""}.Fail("has decimal commas; write points");
+      throw NotATrajectory(TextLine{path, number, fields, ""}.Where() +
+                           ": has decimal commas; write points");
     }
     const auto is_number = [](const std::string& field) { return ParseNumber(field).has_value(); };
     if (!is_comment && std::any_of(fields.begin(), fields.end(), is_number)) break;

@@ -123,7 +123,18 @@ void RefuseMatrices(const std::vector<TextLine>& rows) {
   }
 }
 
-TrajectoryFile ReadKitti(std::vector<TextLine> rows) {
+// Whether at most half of the rows are not as the first one or hold no pose, so that these are
+// damaged.
+bool AreMostlyKitti(const std::vector<TextLine>& rows) {
+  const auto is_pose = [&](const TextLine& line) {
+    if (!MayBeMatrix(line) || HasStamp(line) != HasStamp(rows.front())) return false;
+    const std::vector<double> values = NumbersIn(line);
+    return !AreFinite(values) || PoseOfRow(values).has_value();
+  };
+  return 2 * static_cast<size_t>(std::count_if(rows.begin(), rows.end(), is_pose)) >= rows.size();
+}
+
+TrajectoryFile ReadKittiRows(std::vector<TextLine> rows) {
   TrajectoryFile file;
   file.format = TrajectoryFormat::kKitti;
   file.has_stamps = !rows.empty() && HasStamp(rows.front());
@@ -153,6 +164,15 @@ TrajectoryFile ReadKitti(std::vector<TextLine> rows) {
   }
   SortByTime(&file.poses);
   return file;
+}
+
+TrajectoryFile ReadKitti(const std::vector<TextLine>& rows) {
+  try {
+    return ReadKittiRows(rows);
+  } catch (const std::runtime_error& error) {
+    if (AreMostlyKitti(rows)) throw;
+    throw NotATrajectory(error.what());
+  }
 }
 
 // Converts the time stamps to seconds. `other`: the range of the other trajectory.
@@ -202,11 +222,18 @@ std::string TrajectoryFile::DescribeLeftOut() const {
                            : FormatText("%d rows %s are left out", num_left_out, kReason);
 }
 
+std::string TrajectoryFile::DescribeLack() const {
+  if (!poses.empty()) return "";
+  const std::string reason =
+      num_left_out > 0 ? DescribeLeftOut() : "it is empty or has only comments";
+  return "has no poses: " + reason + "; give a file with rows such as 'time tx ty tz qx qy qz qw'";
+}
+
 TrajectoryFile ReadTrajectoryFile(const std::string& path, std::optional<TrajectoryFormat> format) {
   if (format == TrajectoryFormat::kKitti) return ReadKitti(ReadTextLines(path));
   PoseRows rows = ReadPoseRows(path, format.has_value());
   if (!format && !rows.named) {
-    if (IsKitti(rows.rows)) return ReadKitti(std::move(rows.rows));
+    if (IsKitti(rows.rows)) return ReadKitti(rows.rows);
     RefuseMatrices(rows.rows);
   }
   return ReadPoseTable(std::move(rows), format);

@@ -14,7 +14,8 @@
 namespace msc_vo {
 
 /// Formats of trajectory files, the same that the program evo reads. Files whose header names the
-/// columns are kEuroc if the scalar of the quaternion comes first, or else kTum.
+/// columns are kEuroc if they are comma-separated with the scalar of the quaternion first, or else
+/// kTum.
 enum class TrajectoryFormat {
   kTum,  ///< "time tx ty tz qx qy qz qw" in seconds and metres
   /// The 12 numbers of the upper rows of a 4x4 matrix, or all 16. No time stamps, unless there is a
@@ -49,10 +50,12 @@ struct TrajectoryFile {
   void LeaveOut(double time);
   /// "2 rows with nan, inf or a zero quaternion are left out"; empty if none is.
   std::string DescribeLeftOut() const;
+  /// Says that and why there are no poses; empty if there are.
+  std::string DescribeLack() const;
 };
 
 /// Thrown for a file that is no trajectory, while a damaged line in one is a std::runtime_error:
-/// most of its rows are no poses.
+/// most of its rows are no poses, or all are written in a way that makes them useless.
 class NotATrajectory : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -63,8 +66,8 @@ class NotATrajectory : public std::runtime_error {
 /// rotation matrix are KITTI, comma-separated rows whose stamps are nanoseconds are EuRoC, and all
 /// others TUM; all with or without a number in front; further columns are ignored. Rows of seven
 /// numbers have no time stamp. Throws std::runtime_error naming file, line and fix if a row does
-/// not fit; NotATrajectory if most do not, or if there is a rotation matrix or quaternion in other
-/// columns.
+/// not fit; NotATrajectory if most do not, if there is a rotation matrix or quaternion in other
+/// columns, if numbers have decimal commas, or if the stamps lost their last digits.
 TrajectoryFile ReadTrajectoryFile(const std::string& path,
                                   std::optional<TrajectoryFormat> format = std::nullopt);
 

@@ -70,6 +70,47 @@ TEST_F(TrajectoryFormatTest, DistinguishesDamagedLinesFromOtherFiles) {
     FAIL() << "refuses the file for a damaged line";
   } catch (const std::runtime_error&) {
   }
+  // All formats.
+  const std::string pose = kKitti, no_rotation = "2 -1 0 1 1 0 0 2 0 0 1 3\n";
+  EXPECT_THROW(Read(no_rotation + no_rotation), NotATrajectory);
+  EXPECT_THROW(Read("1,5 0,0 0,0 0,0 0,0 0,0 0,0 1,0\n"), NotATrajectory);
+  EXPECT_THROW(Read("1 0.5 0.5 0.5 0.5 1 2 0.3\n2 0.5 0.5 0.5 0.5 2 1 0.3\n"), NotATrajectory);
+  try {
+    Read(pose + pose + no_rotation);
+    FAIL() << "accepts a damaged line";
+  } catch (const NotATrajectory&) {
+    FAIL() << "refuses the file for a damaged line";
+  } catch (const std::runtime_error&) {
+  }
+}
+
+// EuRoC's own header of some files names no units.
+TEST_F(TrajectoryFormatTest, HeadersOfEurocMeanNanoseconds) {
+  const std::string header =
+      "#timestamp, p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], "
+      "q_RS_z []\n";
+  TrajectoryFile file = Read(header + kEuroc + "\n1403636580843000000,1,2,3,1,0,0,0\n");
+  EXPECT_EQ(file.format, TrajectoryFormat::kEuroc);
+  EXPECT_EQ(file.unit, TimeUnit::kNanoseconds);
+  EXPECT_NEAR(file.poses[0].timestamp, 1403636580.838, 1e-6);
+  TrajectoryFile other = file;
+  std::vector<std::string> warnings;
+  ConvertToSeconds("a", "b", &file, &other, &warnings);
+  EXPECT_THAT(warnings, testing::IsEmpty());
+  // Seconds remain.
+  EXPECT_NE(Read(header + "1.5,1,2,3,1,0,0,0\n2,1,2,3,1,0,0,0\n").unit, TimeUnit::kNanoseconds);
+}
+
+TEST_F(TrajectoryFormatTest, OnlyCommaSeparatedFilesAreThoseOfEuroc) {
+  const TrajectoryFile file = Read("# time tx ty tz qw qx qy qz\n1.5 1 2 3 1 0 0 0\n");
+  EXPECT_EQ(file.format, TrajectoryFormat::kTum);
+  EXPECT_EQ(file.poses[0].world_from_cam.rotation().w(), 1.0);
+}
+
+TEST_F(TrajectoryFormatTest, SaysWhyThereAreNoPoses) {
+  EXPECT_EQ(Read(kTum).DescribeLack(), "");
+  EXPECT_THAT(Read("# no rows\n").DescribeLack(), Names("no poses", "comments"));
+  EXPECT_THAT(Read("1 nan 0 0 0 0 0 1\n").DescribeLack(), Names("no poses", "1 row", "nan"));
 }
 
 TEST_F(TrajectoryFormatTest, ReadsTheSamePoseFromAllFormats) {

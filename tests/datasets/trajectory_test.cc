@@ -7,6 +7,7 @@
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
+#include "msc_vo/datasets/tum_folder.h"
 #include "msc_vo/geometry/so3.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
@@ -116,6 +117,18 @@ TEST_F(TrajectoryTest, AcceptsCommentsCommasTabsBlankLinesAndCrlf) {
   EXPECT_EQ(poses[0].timestamp, 1.0);
   EXPECT_EQ(poses[0].world_from_cam.translation(), Eigen::Vector3d(4, 5, 6));
   EXPECT_EQ(poses[1].world_from_cam.rotation().w(), 1.0);  // normalised
+}
+
+TEST_F(TrajectoryTest, GroundTruthWithoutPosesIsLeftOutWithAWarning) {
+  for (const char* text :
+       {"2 -1 0 1 1 0 0 2 0 0 1 3\n2 -1 0 1 1 0 0 2 0 0 1 3\n", "1,5 0,0 0,0 0,0 0,0 0,0 0,0 1,0\n",
+        "1 0.5 0.5 0.5 0.5 1 2 0.3\n2 0.5 0.5 0.5 0.5 2 1 0.3\n"}) {
+    WriteText("groundtruth.txt", text);
+    SequenceIndex index;
+    ReadGroundTruthFile(Path("groundtruth.txt"), WholeStamps::kTimes, &index);
+    EXPECT_TRUE(index.ground_truth.empty());
+    EXPECT_THAT(index.warnings, testing::ElementsAre(Names("groundtruth.txt:1", "left out")));
+  }
 }
 
 TEST_F(TrajectoryTest, ErrorsNameFileAndLine) {
