@@ -84,6 +84,8 @@ struct SequenceIndex {
   /// which this names, "ARKit": a reference to compare with, whose errors are not known.
   std::string reference;
   std::vector<std::string> warnings;  ///< for the user, one sentence each
+  /// Those of `warnings` that do not apply if the user gives the colour or the depth camera.
+  std::string color_camera_warning, depth_camera_warning;
 
   /// The sensor of the depth images according to `calibration`; kAuto: the source gives none.
   DepthSensor GivenDepthSensor() const {

@@ -17,6 +17,7 @@
 #include "msc_vo/datasets/image_size_fit.h"
 #include "msc_vo/datasets/intrinsics_file.h"
 #include "msc_vo/datasets/tum_folder.h"
+#include "msc_vo/geometry/erase_if.h"
 #include "msc_vo/image_files/image_file.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
@@ -230,6 +231,15 @@ Calibration BaseCalibration(const CameraSettings& settings, const std::string& p
   return GuessedPreset(index);
 }
 
+// Removes the warnings about cameras that the settings give.
+void RemoveAnsweredWarnings(const CameraSettings& settings, SequenceIndex* index) {
+  const auto remove = [index](const std::string& warning) {
+    EraseIf(&index->warnings, [&](const std::string& other) { return other == warning; });
+  };
+  if (IsComplete(settings)) remove(index->color_camera_warning);
+  if (!settings.depth_camera.IsEmpty()) remove(index->depth_camera_warning);
+}
+
 ImageSize ImageSizeOf(const SequenceIndex& index, const SequenceEntry& entry, ImageKind kind) {
   const bool is_depth = kind == ImageKind::kDepth;
   if (!index.container) return ReadImageSize(is_depth ? entry.depth_path : entry.color_path);
@@ -298,6 +308,7 @@ ImageSize FirstImageSize(const SequenceIndex& index, ImageKind kind) {
 
 Calibration ResolveCalibration(const CameraSettings& settings, const std::string& preset,
                                SequenceIndex* index) {
+  RemoveAnsweredWarnings(settings, index);
   Calibration calibration = BaseCalibration(settings, preset, index);
   if (index->depth_scale) calibration.depth_scale = *index->depth_scale;
   Apply(settings, &calibration);

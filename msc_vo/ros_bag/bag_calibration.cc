@@ -94,7 +94,7 @@ std::string DescribeUnregistered(const TopicPair& topics, bool has_camera,
 // it, which has a warning if the bag contradicts.
 std::optional<DepthCamera> ReadDepthCamera(const BagFile& bag, const CameraInfos& infos,
                                            const TopicPair& topics, const PinholeCamera& color,
-                                           std::vector<std::string>* warnings) {
+                                           std::string* warning) {
   if (AreRegistered(topics.depth, topics.color)) return std::nullopt;
   std::string problem;
   const std::optional<Calibration> own = infos.Find(topics.depth, &problem);
@@ -107,19 +107,18 @@ std::optional<DepthCamera> ReadDepthCamera(const BagFile& bag, const CameraInfos
   }
   if (problem.empty()) return camera;
   if (!AreOfOtherCamera(topics, color, own)) return std::nullopt;
-  warnings->push_back(DescribeUnregistered(topics, camera.has_value(), problem));
+  *warning = DescribeUnregistered(topics, camera.has_value(), problem);
   return camera;
 }
 
 }  // namespace
 
 std::optional<Calibration> ReadCalibration(const BagFile& bag, const CameraInfos& infos,
-                                           const TopicPair& topics,
-                                           std::vector<std::string>* warnings) {
+                                           const TopicPair& topics, CalibrationWarnings* warnings) {
   std::string problem, problem_of_depth;
   std::optional<Calibration> color = infos.Find(topics.color, &problem);
   if (color) {
-    color->depth_camera = ReadDepthCamera(bag, infos, topics, color->Recorded(), warnings);
+    color->depth_camera = ReadDepthCamera(bag, infos, topics, color->Recorded(), &warnings->depth);
     return color;
   }
   const bool are_registered = AreRegistered(topics.depth, topics.color);
@@ -130,10 +129,10 @@ std::optional<Calibration> ReadCalibration(const BagFile& bag, const CameraInfos
                " of the depth images is used, which is wrong unless these are registered to "
                "colour; --camera-file gives the right camera";
   } else if (!are_registered && HaveDifferentFrames(topics)) {
-    warnings->push_back(
-        DescribeUnregistered(topics, false, "the bag does not give the colour camera"));
+    warnings->depth =
+        DescribeUnregistered(topics, false, "the bag does not give the colour camera");
   }
-  if (!infos.IsEmpty()) warnings->push_back(problem);
+  if (!infos.IsEmpty()) warnings->color = problem;
   return depth;
 }
 

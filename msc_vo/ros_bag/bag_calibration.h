@@ -5,7 +5,6 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "msc_vo/datasets/calibration.h"
 #include "msc_vo/ros_bag/bag_file.h"
@@ -13,6 +12,12 @@
 #include "msc_vo/ros_bag/topic_choice.h"
 
 namespace msc_vo {
+
+/// What is not known of the cameras of a bag, one sentence each; empty: nothing.
+struct CalibrationWarnings {
+  std::string color;
+  std::string depth;
+};
 
 /// Returns the calibration of the images of two topics; none if the bag does not have it.
 ///
@@ -22,7 +27,6 @@ namespace msc_vo {
 /// of a RealSense camera or of tf; there is a warning if it is not known, in which case the depth
 /// camera is taken for one at the place of the colour camera.
 std::optional<Calibration> ReadCalibration(const BagFile& bag, const CameraInfos& infos,
-                                           const TopicPair& topics,
-                                           std::vector<std::string>* warnings);
+                                           const TopicPair& topics, CalibrationWarnings* warnings);
 
 }  // namespace msc_vo

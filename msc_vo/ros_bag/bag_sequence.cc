@@ -222,7 +222,13 @@ SequenceIndex OpenBag(const std::string& given_path, const BagTopics& topics) {
   const StoredImage first = index.container->ReadDepth(index.entries.front().depth_index);
   const bool is_metres = first.bytes.empty() && first.pixels.type() == CV_32FC1;
   index.depth_scale = is_metres ? kUnitsOfMetres : DepthScaleOf(*bag, depth.name, &index.warnings);
-  index.calibration = ReadCalibration(*bag, infos, {color, depth}, &index.warnings);
+  CalibrationWarnings warnings;
+  index.calibration = ReadCalibration(*bag, infos, {color, depth}, &warnings);
+  index.depth_camera_warning = warnings.depth;
+  index.color_camera_warning = warnings.color;
+  for (const std::string& warning : {warnings.depth, warnings.color}) {
+    if (!warning.empty()) index.warnings.push_back(warning);
+  }
   ChooseCamera(&index);
   ReadGroundTruth(path, &index);
   Log().info("bag {}: colour {}, depth {}", path, color.name, depth.name);

@@ -14,6 +14,7 @@
 #include "tests/support/temporary_folder.h"
 #include <gmock/gmock.h>
 
+#include "msc_vo/datasets/sequence_calibration.h"
 #include "msc_vo/ros_bag/bag_sequence.h"
 #include "msc_vo/text/ending.h"
 
@@ -215,6 +216,28 @@ TEST_F(BagCalibrationTest, WarnsOfACameraInfoOfDepthThatIsNotRegistered) {
     EXPECT_THAT(index.warnings,
                 testing::Contains(is_warning).Times(topic == "/camera/depth" ? 1 : 0));
   }
+}
+
+TEST_F(BagCalibrationTest, WarnsOfNoCameraThatTheUserGives) {
+  Begin("x.bag");
+  WriteCameras("color", "depth", 400.0);
+  SequenceIndex index = Open();
+  ASSERT_EQ(index.warnings.size(), 1u);
+  ResolveCalibration(CameraSettings(), "", &index);
+  EXPECT_EQ(index.warnings.size(), 1u);
+  CameraSettings settings = SettingsOf(*index.calibration);
+  ResolveCalibration(settings, "", &index);
+  EXPECT_THAT(index.warnings, IsEmpty());
+
+  Begin("y.bag");
+  WriteColor("");
+  WriteDepth("", "/camera/depth/image");
+  WriteInfo("/camera/depth/camera_info", InfoIn(""));
+  index = Open();
+  EXPECT_EQ(index.warnings.size(), 1u);
+  settings.depth_camera = DepthCameraSettings();
+  ResolveCalibration(settings, "", &index);
+  EXPECT_THAT(index.warnings, IsEmpty());
 }
 
 TEST_F(BagCalibrationTest, GoesOnWithoutADamagedCameraInfo) {
