@@ -12,6 +12,7 @@
 
 #include "apps/python/arrays.h"
 #include "apps/python/bindings.h"
+#include "apps/python/garbage_collection.h"
 #include "apps/python/python_cost_function.h"
 #include "msc_vo/bundle_adjustment/validation.h"
 #include "msc_vo/factors/direction_prior.h"
@@ -93,12 +94,13 @@ py::object EvaluateCost(const PyCost& self, const py::args& blocks) {
 
 PyCost MakePythonCost(const py::function& callable, int num_residuals,
                       const std::vector<int>& block_sizes, bool numeric) {
-  if (numeric) return {MakeNumericCostFunction(callable, num_residuals, block_sizes)};
-  return {std::make_shared<PythonCostFunction>(callable, num_residuals, block_sizes)};
+  const SharedObject shared(callable);
+  if (numeric) return {MakeNumericCostFunction(shared, num_residuals, block_sizes), shared};
+  return {std::make_shared<PythonCostFunction>(shared, num_residuals, block_sizes), shared};
 }
 
 void BindCosts(py::module_* module) {
-  py::class_<PyCost>(*module, "CostFunction",
+  py::class_<PyCost>(*module, "CostFunction", CollectsGarbage<PyCost>(),
                      "A Ceres cost function. The Python callable gets the values of the parameter "
                      "blocks as arrays and returns (residuals, jacobians) with one Jacobian of "
                      "shape (num_residuals, block size) per block; with numeric=True residuals "

@@ -9,6 +9,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include "apps/python/shared_object.h"
 #include "msc_vo/bundle_adjustment/custom_factor.h"
 #include "msc_vo/pose_estimation/pose_factor.h"
 
@@ -17,6 +18,14 @@ namespace msc_vo {
 /// A cost function in Python: the built-in ones and CostFunction.
 struct PyCost {
   std::shared_ptr<const ceres::CostFunction> cost;
+  SharedObject callable{};  ///< of `cost`, if it is one in Python
+
+  /// See CollectsGarbage(). Factors that share the cost are not visible to the collector, which
+  /// must not take the callable from them.
+  template <typename Action>
+  void ForEachSharedObject(const Action& action) {
+    if (cost.use_count() == 1) action(&callable);
+  }
 };
 
 /// The CustomFactor and ExtraBlock objects of an iterable. Throws std::invalid_argument on any

@@ -30,7 +30,7 @@ py::object Call(const py::object& callable, const std::vector<int>& sizes,
 // The functor of a cost function with numeric derivatives.
 class NumericFunctor {
  public:
-  NumericFunctor(py::object callable, int num_residuals, std::vector<int> sizes)
+  NumericFunctor(SharedObject callable, int num_residuals, std::vector<int> sizes)
       : callable_(std::move(callable)), num_residuals_(num_residuals), sizes_(std::move(sizes)) {}
 
   bool operator()(double const* const* parameters, double* residuals) const {
@@ -57,7 +57,7 @@ void CheckSizes(int num_residuals, const std::vector<int>& sizes) {
 
 }  // namespace
 
-PythonCostFunction::PythonCostFunction(py::object callable, int num_residuals,
+PythonCostFunction::PythonCostFunction(SharedObject callable, int num_residuals,
                                        const std::vector<int>& block_sizes)
     : callable_(std::move(callable)) {
   CheckSizes(num_residuals, block_sizes);
@@ -100,7 +100,7 @@ bool PythonCostFunction::Evaluate(double const* const* parameters, double* resid
 }
 
 std::shared_ptr<const ceres::CostFunction> MakeNumericCostFunction(
-    py::object callable, int num_residuals, const std::vector<int>& block_sizes) {
+    SharedObject callable, int num_residuals, const std::vector<int>& block_sizes) {
   CheckSizes(num_residuals, block_sizes);
   auto cost = std::make_shared<ceres::DynamicNumericDiffCostFunction<NumericFunctor>>(
       new NumericFunctor(std::move(callable), num_residuals, block_sizes));

@@ -18,8 +18,7 @@ namespace msc_vo {
 /// the GIL. Exceptions of the callable pass through the solver.
 class PythonCostFunction : public ceres::CostFunction {
  public:
-  PythonCostFunction(pybind11::object callable, int num_residuals,
-                     const std::vector<int>& block_sizes);
+  PythonCostFunction(SharedObject callable, int num_residuals, const std::vector<int>& block_sizes);
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
@@ -30,6 +29,6 @@ class PythonCostFunction : public ceres::CostFunction {
 
 /// The same for a callable that returns residuals only; Jacobians are central differences.
 std::shared_ptr<const ceres::CostFunction> MakeNumericCostFunction(
-    pybind11::object callable, int num_residuals, const std::vector<int>& block_sizes);
+    SharedObject callable, int num_residuals, const std::vector<int>& block_sizes);
 
 }  // namespace msc_vo

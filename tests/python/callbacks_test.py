@@ -298,6 +298,31 @@ class Lifetime(unittest.TestCase):
         odometry.finish()
         self.assertIsNotNone(kept())
 
+    def test_owners_whose_methods_are_cost_functions_are_freed(self):
+        for numeric in (False, True):
+            with self.subTest(numeric=numeric):
+                owner = Owner([])
+                owner.cost = msc_vo.CostFunction(owner.callback, 1, [7], numeric)
+                freed = weakref.ref(owner)
+                del owner
+                gc.collect()
+                self.assertIsNone(freed())
+
+    def test_cost_functions_of_a_factor_are_not_freed(self):
+        class Prior:
+            def __init__(self):
+                self.cost = msc_vo.CostFunction(self.evaluate, 1, [7])
+
+            def evaluate(self, pose):
+                return pose[4:5], [np.eye(1, 7, 4)]
+
+        prior = Prior()
+        factor, kept = msc_vo.PoseFactor(prior.cost), weakref.ref(prior)
+        del prior
+        gc.collect()
+        self.assertIsNotNone(kept())
+        self.assertIsNotNone(factor)
+
     def test_callbacks_that_are_replaced_are_freed(self):
         odometry, owner = support.room_odometry(), Owner([])
         freed = weakref.ref(owner)
