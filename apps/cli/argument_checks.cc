@@ -3,6 +3,7 @@
 
 #include "apps/cli/argument_checks.h"
 
+#include <cmath>
 #include <filesystem>
 #include <optional>
 
@@ -29,6 +30,20 @@ CLI::Validator NumberFrom(double min, double max) {
                                                        : "Value " + text + " not in range " + range;
       },
       "in " + range);
+}
+
+CLI::Validator WholeNumberFrom(double min, double max) {
+  const std::string range = FormatText("from %.0f to %.0f", min, max);
+  return CLI::Validator(
+      [min, max, range](std::string& text) {
+        const std::optional<double> value = ParseNumber(text);
+        if (!value || !(*value >= min && *value <= max) || *value != std::floor(*value)) {
+          return "must be a whole number " + range + ", not " + text;
+        }
+        text = FormatText("%.0f", *value);
+        return std::string();
+      },
+      "whole, " + range);
 }
 
 std::string CheckPlyFileName(const std::string& path) {

@@ -13,6 +13,10 @@ namespace msc_vo {
 /// negative numbers for unsigned integers.
 CLI::Validator NumberFrom(double min, double max);
 
+/// Checks that an argument is a whole number from `min` to `max`, at most 2^53, and writes it in
+/// digits, which CLI11 converts to every type of integer: 1e3 is 1000. For Option::transform().
+CLI::Validator WholeNumberFrom(double min, double max);
+
 /// For CLI11: an error unless a path ends in .ply.
 std::string CheckPlyFileName(const std::string& path);
 

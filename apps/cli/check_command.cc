@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cstddef>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <string>
 
 #include <nlohmann/json.hpp>
 
+#include "apps/cli/argument_checks.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/configuration_arguments.h"
 #include "apps/cli/sequence_arguments.h"
@@ -99,7 +101,7 @@ Command AddCheckCommand(CLI::App* app) {
   command
       ->add_option("--images", arguments->options.max_images,
                    "Number of images to decode, evenly spaced")
-      ->check(CLI::PositiveNumber)
+      ->transform(WholeNumberFrom(1, std::numeric_limits<int>::max()))
       ->capture_default_str();
   command->add_flag("--all", arguments->all, "Decode every image");
   command->add_flag("--deep", arguments->options.deep,

@@ -126,7 +126,7 @@ void AddFusionArguments(CLI::App* command, SurfaceFusionOptions* options) {
   command
       ->add_option("--min-observations", options->min_observations,
                    "Images that must have seen a part of the surface")
-      ->check(CLI::Range(1, 1000))
+      ->transform(WholeNumberFrom(1, 1000))
       ->capture_default_str();
   command
       ->add_option("--max-memory", options->max_memory_mib,

@@ -47,6 +47,7 @@ int Export(const CLI::App& command, RunExport arguments) {
 
 Command AddExportCommand(CLI::App* app) {
   const auto arguments = std::make_shared<RunExport>();
+  arguments->overwrite = false;
   CLI::App* command = app->add_subcommand(
       "export", "Write the results of a run, or a map, in the format of another program");
   command
@@ -65,11 +66,14 @@ Command AddExportCommand(CLI::App* app) {
   AddConfigurationArguments(command, &arguments->configuration);
   AddCameraFileArgument(command, &arguments->configuration);
   command->add_option("--every", arguments->poses.every, "Export every N-th pose only")
-      ->check(NumberFrom(1, 1e6))
+      ->transform(WholeNumberFrom(1, 1e6))
       ->capture_default_str();
   command->add_flag("--all-poses", arguments->poses.all_poses,
                     "Also poses that are not estimated from the image, but predicted");
   command->add_flag("--binary", arguments->binary, "For colmap: the binary form");
+  command->add_flag_callback(
+      "--overwrite", [arguments] { arguments->overwrite = true; },
+      "Replace a file that is not recognised as an earlier export of this format");
   command->add_flag("--images", arguments->images, "For mcap: also the colour images");
   command
       ->add_option("--map", arguments->map,

@@ -125,7 +125,7 @@ Command AddFuseCommand(CLI::App* app) {
   command->add_flag("--quiet", arguments->quiet, "Print neither progress nor results");
   AddFusionArguments(command, &arguments->fusion);
   command->add_option("--every", arguments->poses.every, "Use every Nth image with a pose")
-      ->check(CLI::Range(1, 100000))
+      ->transform(WholeNumberFrom(1, 1e6))
       ->capture_default_str();
   AddConfigurationArguments(command, &arguments->configuration);
   AddCameraFileArgument(command, &arguments->configuration);

@@ -3,12 +3,14 @@
 
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
 
 #include <nlohmann/json.hpp>
 
+#include "apps/cli/argument_checks.h"
 #include "apps/cli/command_log.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/configuration_arguments.h"
@@ -179,7 +181,7 @@ Command AddRecordCommand(CLI::App* app) {
   AddConfigurationArguments(command, &arguments->configuration);
   AddCameraFileArgument(command, &arguments->configuration);
   command->add_option("--max-frames", arguments->max_frames, "Stop after N image pairs")
-      ->check(CLI::PositiveNumber);
+      ->transform(WholeNumberFrom(1, std::numeric_limits<int>::max()));
   command->add_flag("--json", arguments->json, "Print what was written as JSON");
   command->footer(HelpFooter("msc_vo record openni2: my_sequence"));
   return {command, [arguments] { return Run(*arguments); }};

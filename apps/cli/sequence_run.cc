@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <exception>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "apps/cli/argument_checks.h"
 #include "apps/cli/command_log.h"
 #include "apps/cli/cost_meter.h"
 #include "apps/cli/frame_loop.h"
@@ -164,13 +166,13 @@ void WarnAboutUnreadableImages(const SequenceRun& run) {
 }  // namespace
 
 void AddRunArguments(CLI::App* command, RunArguments* arguments) {
-  const auto at_least_one = [](const std::string& text) -> std::string {
-    const std::optional<double> number = ParseNumber(text);
-    if (number && *number >= 1.0) return "";
-    return "must be at least 1, not " + text + "; omit it to process all images";
+  const CLI::Validator whole = WholeNumberFrom(1, std::numeric_limits<int>::max());
+  const auto at_least_one = [whole](std::string& text) {
+    const std::string problem = whole(text);
+    return problem.empty() ? problem : problem + "; omit it to process all images";
   };
   command->add_option("--max-frames", arguments->max_frames, "Process only the first N images")
-      ->check(at_least_one);
+      ->transform(CLI::Validator(at_least_one, ""));
   command->add_flag("--strict", arguments->strict, "Stop at the first image that cannot be read");
   CLI::Option* quiet =
       command->add_flag("--quiet", arguments->quiet, "Print neither progress nor results");

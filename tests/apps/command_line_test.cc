@@ -14,6 +14,8 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "msc_vo/text/files.h"
+
 namespace msc_vo {
 namespace {
 
@@ -110,6 +112,46 @@ TEST_F(CommandLineTest, RefusesNumbersOutOfRange) {
     }
   }
   EXPECT_FALSE(std::filesystem::exists(Path("room")));
+}
+
+TEST_F(CommandLineTest, SaysWhichNumbersMustBeWhole) {
+  const std::vector<std::string> fuse = {"fuse", "x", "y", "--output", Path("mesh.ply")};
+  const auto fuse_with = [&fuse](const char* option) {
+    std::vector<std::string> arguments = fuse;
+    arguments.emplace_back(option);
+    return arguments;
+  };
+  for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+           {"synthesize", Path("room"), "--frames"},
+           {"synthesize", Path("room"), "--seed"},
+           {"synthesize", Path("room"), "--path"},
+           {"synthesize", Path("room"), "--width"},
+           {"synthesize", Path("room"), "--height"},
+           {"synthesize", Path("room"), "--stride"},
+           {"synthesize", Path("room"), "--jpeg", "--jpeg-quality"},
+           {"replay", "x", "--max-frames"},
+           {"check", "x", "--images"},
+           {"record", "x", Path("room"), "--max-frames"},
+           {"export", "x", "tum", "y", "--every"},
+           fuse_with("--every"),
+           fuse_with("--min-observations")}) {
+    for (const char* value : {"1.5", "1e16", "-1", "abc"}) {
+      std::vector<std::string> arguments = command;
+      arguments.back() += std::string("=") + value;
+      const CommandOutcome outcome = RunCommand(arguments);
+      EXPECT_EQ(outcome.exit_code, 2) << arguments.back();
+      EXPECT_THAT(outcome.output, LineNames(command.back(), "whole number from", value));
+    }
+  }
+  // The largest number, and whole numbers in other forms.
+  const CommandOutcome outcome =
+      RunCommand({"synthesize", Path("room"), "--seed", "1e15", "--width", "6.4e1", "--frames",
+                  "010", "--stride", "10"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  const nlohmann::json truth = nlohmann::json::parse(ReadFile(Path("room/truth.json")));
+  EXPECT_EQ(truth["seed"], 1000000000000000);
+  EXPECT_EQ(truth["camera"]["width"], 64);
+  EXPECT_EQ(truth["options"]["frames"], "10");
 }
 
 TEST_F(CommandLineTest, SuggestsSimilarCommands) {
