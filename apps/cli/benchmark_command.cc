@@ -222,6 +222,7 @@ int Merge(const BenchmarkArguments& arguments) {
   }
   SortRuns(&benchmark);
   benchmark.command_line = CommandLine();
+  if (!arguments.overwrite) RefuseToReplaceTables(arguments.output, Shard());
   WriteBenchmarkTables(arguments.output, Shard(), benchmark);
   const std::vector<std::string> missing = MissingShards(files);
   for (const std::string& shard : missing) PrintWarning("shard " + shard + " is missing");

@@ -9,6 +9,7 @@
 #include <iostream>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "apps/cli/command_log.h"
 #include "apps/cli/run_files.h"
@@ -52,6 +53,17 @@ RgbdDecoder OpenWithGroundTruth(const SequenceArguments& sequence,
 }
 
 }  // namespace
+
+void RefuseToReplaceTables(const std::string& folder, const Shard& shard) {
+  if (HasEntry(PathIn(folder, ShardFileName("benchmark", shard, ".json")))) return;
+  for (const auto& [stem, ending] : {std::pair("benchmark", ".md"), std::pair("index", ".html")}) {
+    const std::string path = PathIn(folder, ShardFileName(stem, shard, ending));
+    if (!HasEntry(path)) continue;
+    throw std::runtime_error(path + ": exists, and is not the result of a benchmark: " + folder +
+                             " has no " + ShardFileName("benchmark", shard, ".json") +
+                             "; give another folder with --output, or use --overwrite");
+  }
+}
 
 void WriteBenchmarkTables(const std::string& folder, const Shard& shard,
                           const Benchmark& benchmark) {
@@ -116,9 +128,11 @@ void BenchmarkRunner::RefuseToOverwriteOtherRuns() const {
   for (const BenchmarkSequence& sequence : plan_.sequences) {
     planned.push_back(IdentifySequence(sequence.directory));
     for (const std::string& mode : benchmark_->modes) {
-      RefuseToOverwriteOthers(RunFolder(sequence.name, mode), planned.back());
+      RefuseSequenceFolder(RunFolder(sequence.name, mode));
+      RefuseToOverwriteOthers(RunFolder(sequence.name, mode), planned.back(), ResultFileNames());
     }
   }
+  RefuseToReplaceTables(plan_.output, plan_.shard);
   const fs::path table = fs::path(plan_.output) / ShardFileName("benchmark", plan_.shard, ".json");
   if (!HasEntry(table.string())) return;
   for (const BenchmarkRun& run : ReadBenchmarkJson(table.string()).runs) {
@@ -192,6 +206,7 @@ void BenchmarkRunner::RunMode(const RgbdDecoder& decoder, const Configuration& c
   try {
     row->folder = RunFolder(row->sequence, row->mode);
     RefuseToOverwriteInputs(decoder.index(), plan_.input_files, row->folder);
+    RefuseSequenceFolder(row->folder);
     RunFiles files(row->folder, IdentifySequence(decoder.index()));
     Configuration own = configuration;
     UseDepthSensorOf(decoder.index(), &own.odometry);

@@ -28,6 +28,10 @@ struct BenchmarkPlan {
   Shard shard;
 };
 
+/// Throws std::runtime_error if the tables would replace files that are not those of a benchmark,
+/// whose folder has a benchmark.json.
+void RefuseToReplaceTables(const std::string& folder, const Shard& shard);
+
 /// Writes the tables of a benchmark to a folder: benchmark.json, benchmark.md and index.html, with
 /// the number of the share in their names. Throws std::runtime_error naming the first file that
 /// cannot be written.

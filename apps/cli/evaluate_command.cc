@@ -15,6 +15,7 @@
 #include "apps/cli/commands.h"
 #include "apps/cli/evaluation_output.h"
 #include "apps/cli/map_argument.h"
+#include "apps/cli/output_file.h"
 #include "msc_vo/datasets/trajectory_format.h"
 #include "msc_vo/evaluation/line_error.h"
 #include "msc_vo/evaluation/trajectory_error.h"
@@ -53,6 +54,11 @@ struct Trajectories {
   TrajectoryFile estimate;
 };
 
+void RequirePoses(const std::string& path, const TrajectoryFile& file) {
+  const std::string problem = file.DescribeLack();
+  if (!problem.empty()) throw std::runtime_error(path + ": " + problem);
+}
+
 Trajectories ReadTrajectories(const EvaluateArguments& arguments) {
   std::optional<TrajectoryFormat> truth_format, estimate_format;
   if (!arguments.formats.empty()) {
@@ -64,6 +70,8 @@ Trajectories ReadTrajectories(const EvaluateArguments& arguments) {
   }
   Trajectories trajectories{ReadTrajectoryFile(arguments.truth, truth_format),
                             ReadTrajectoryFile(arguments.estimate, estimate_format)};
+  RequirePoses(arguments.truth, trajectories.truth);
+  RequirePoses(arguments.estimate, trajectories.estimate);
   std::vector<std::string> warnings;
   ConvertToSeconds(arguments.truth, arguments.estimate, &trajectories.truth, &trajectories.estimate,
                    &warnings);
@@ -102,8 +110,11 @@ int Run(EvaluateArguments arguments) {
   if (!arguments.lines.empty() && arguments.options.alignment != Alignment::kSe3) {
     throw UsageError("--lines compares lines after a rigid alignment; leave out --align");
   }
-  RefuseToOverwrite({arguments.truth, arguments.estimate, arguments.lines, arguments.edges},
-                    arguments.plot);
+  if (!arguments.plot.empty()) {
+    CheckOutputFile(arguments.plot,
+                    {arguments.truth, arguments.estimate, arguments.lines, arguments.edges}, {},
+                    kComparisonMark);
+  }
   const Trajectories trajectories = ReadTrajectories(arguments);
   const TrajectoryFile &truth = trajectories.truth, &estimate = trajectories.estimate;
   const EvaluationContext context{ToString(truth.format), ToString(estimate.format),

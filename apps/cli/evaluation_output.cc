@@ -109,10 +109,10 @@ std::string FormatSegmentTable(const std::vector<SegmentError>& segments, bool h
   return table;
 }
 
-void WriteComparison(const std::string& path, const std::string& title,
-                     const TrajectoryError& error, const EvaluationContext& context) {
+void WriteComparison(const std::string& path, const std::string& name, const TrajectoryError& error,
+                     const EvaluationContext& context) {
   TrajectoryComparison comparison;
-  comparison.title = title;
+  comparison.title = "Evaluation of " + name;
   comparison.command_line = CommandLine();
   comparison.reference = error.matched_reference;
   comparison.estimate = error.matched_estimate;

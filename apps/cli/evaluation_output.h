@@ -18,9 +18,12 @@ std::string FormatLineTable(const LineError& error);
 /// A row for each segment; empty without segments.
 std::string FormatSegmentTable(const std::vector<SegmentError>& segments, bool has_several_worlds);
 
-/// Writes the plots of the two trajectories to a file: a page (.html) or an image (.svg). Throws
-/// std::runtime_error, naming the file, if it cannot be written.
-void WriteComparison(const std::string& path, const std::string& title,
-                     const TrajectoryError& error, const EvaluationContext& context);
+/// Text at the beginning of the plots, see OutputKind.
+inline constexpr char kComparisonMark[] = "<title>Evaluation of ";
+
+/// Writes the plots of the two trajectories to a file: a page (.html) or an image (.svg). `name`:
+/// of the estimate. Throws std::runtime_error, naming the file, if it cannot be written.
+void WriteComparison(const std::string& path, const std::string& name, const TrajectoryError& error,
+                     const EvaluationContext& context);
 
 }  // namespace msc_vo

@@ -31,7 +31,7 @@ void RefuseToOverwriteImages(const SequenceIndex& index, const RunExport& argume
   if (arguments.format == "colmap") {
     RefuseToOverwrite(InputFolders(index), arguments.output);
   } else {
-    RefuseToReplaceInSequence(index, arguments.output, ExportMark(arguments.format),
+    RefuseToReplaceInSequence(index, arguments.output, KindOfExport(arguments.format),
                               arguments.overwrite);
   }
 }

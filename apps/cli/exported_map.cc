@@ -116,17 +116,10 @@ std::function<std::string(const Keyframe&)> ImageNames(const RunExport& argument
   return [decoder](const Keyframe& keyframe) { return NameInSequence(*decoder, keyframe); };
 }
 
-// Throws std::runtime_error if one file of an export may not be replaced. `mark`: see HasMark();
-// empty: none.
-void CheckFile(const RunExport& arguments, const std::string& file, const std::string& mark) {
+// Throws std::runtime_error if one file of an export may not be replaced.
+void CheckFile(const RunExport& arguments, const std::string& file, const OutputKind& kind) {
   RefuseToOverwrite({arguments.map}, file);
-  if (mark.empty()) {
-    return RefuseToReplaceInFolder(arguments.sequence.directory, file, mark, arguments.overwrite);
-  }
-  if (arguments.overwrite.value_or(false) || !HasEntry(file) || HasMark(file, mark)) return;
-  throw std::runtime_error(file + ": exists, and is no earlier " + arguments.format +
-                           " export; remove it, give another path" +
-                           (arguments.overwrite ? ", or use --overwrite" : ""));
+  RefuseToReplace(file, kind, {arguments.sequence.directory}, arguments.overwrite);
 }
 
 }  // namespace

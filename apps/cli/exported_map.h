@@ -13,12 +13,12 @@ namespace msc_vo {
 /// The name of an image in the model of COLMAP: its path in the folder of the sequence.
 std::string ColmapImageName(const SequenceIndex& index, const SequenceEntry& entry);
 
-/// Text at the beginning of graphs of g2o, see HasMark().
+/// Text at the beginning of graphs of g2o, see OutputKind.
 inline constexpr char kG2oMark[] = "VERTEX_SE3:QUAT";
 
 /// Throws std::runtime_error if an export of a map would replace the map or a file that is no
 /// earlier export, or if colmap would write into the folder of a sequence. Files of the binary form
-/// of colmap, which have no mark, are refused in the folder of the sequence only, if that is given.
+/// of colmap have no mark, so that they are replaced with --overwrite only.
 void CheckMapExport(const RunExport& arguments);
 
 /// Writes colmap or g2o of a map file. Throws std::runtime_error, naming the file and the fix.

@@ -3,7 +3,9 @@
 
 #include "apps/cli/output_file.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <regex>
 #include <stdexcept>
 #include <system_error>
 
@@ -14,8 +16,6 @@
 namespace msc_vo {
 
 namespace {
-
-constexpr size_t kMarkedBytes = 1024;
 
 // Whether `folder` holds results of a run over a sequence.
 bool HoldsResultsOf(const std::string& folder, const std::string& sequence) {
@@ -37,6 +37,21 @@ bool IsBesideInput(const std::string& file, const std::string& sequence) {
   return false;
 }
 
+// The first kilobyte; empty if it is no regular file, as pipes would wait for a writer.
+std::string FirstKilobyte(const std::string& file) {
+  std::error_code error;
+  return std::filesystem::is_regular_file(file, error) ? ReadBeginning(file, 1024) : "";
+}
+
+bool HasMark(const std::string& file, const std::string& mark) {
+  return !mark.empty() && FirstKilobyte(file).find(mark) != std::string::npos;
+}
+
+bool HasBeginning(const std::string& file, const std::string& expression) {
+  return !expression.empty() && std::regex_search(FirstKilobyte(file), std::regex(expression),
+                                                  std::regex_constants::match_continuous);
+}
+
 }  // namespace
 
 bool AreSameFile(const std::string& a, const std::string& b) {
@@ -52,39 +67,42 @@ bool AreSameFile(const std::string& a, const std::string& b) {
   return !error && path == resolve(b) && !error;
 }
 
-bool HasMark(const std::string& file, const std::string& mark) {
-  std::error_code error;  // pipes would wait for a writer
-  return !mark.empty() && std::filesystem::is_regular_file(file, error) &&
-         ReadBeginning(file, kMarkedBytes).find(mark) != std::string::npos;
-}
-
-void RefuseToReplaceInFolder(const std::string& folder, const std::string& file,
-                             const std::string& mark, std::optional<bool> overwrite) {
-  if (overwrite.value_or(false) || !HasEntry(file) || HasMark(file, mark)) return;
-  if (!IsBesideInput(file, folder)) return;
-  throw std::runtime_error(file +
-                           ": may be input: it is in the folder of the sequence, and is not " +
-                           "recognised as an earlier result; remove it, give another path" +
-                           (overwrite ? ", or use --overwrite" : ""));
+void RefuseToReplace(const std::string& file, const OutputKind& kind,
+                     const std::vector<std::string>& sequences, std::optional<bool> overwrite) {
+  std::error_code error;
+  const bool is_file = std::filesystem::is_regular_file(file, error);
+  // Writing to a folder or a device fails by itself.
+  if (!HasEntry(file) || (!is_file && std::filesystem::exists(file, error))) return;
+  if (overwrite.value_or(false) || HasMark(file, kind.mark)) return;
+  const bool is_beside_input =
+      std::any_of(sequences.begin(), sequences.end(),
+                  [&](const std::string& sequence) { return IsBesideInput(file, sequence); });
+  if (!is_beside_input && HasBeginning(file, kind.beginning)) return;
+  throw std::runtime_error(
+      file + ": exists, and may be input or the result of another command: it is " +
+      (is_beside_input ? "in the folder of the sequence, and is " : "") +
+      "not recognised as an earlier result of this kind; remove it, give another path" +
+      (overwrite ? ", or use --overwrite" : ""));
 }
 
 void RefuseToReplaceInSequence(const SequenceIndex& sequence, const std::string& file,
-                               const std::string& mark, std::optional<bool> overwrite) {
+                               const OutputKind& kind, std::optional<bool> overwrite) {
   // Earlier results may have any name but that of the ground truth, which may be a trajectory of
   // them.
   const bool is_truth = std::filesystem::path(file).filename() == TruthFileName(sequence);
-  if (HasMark(file, mark) && !is_truth) return;
+  if (HasMark(file, kind.mark) && !is_truth) return;
   RefuseToOverwriteSequence(sequence, file);
-  RefuseToReplaceInFolder(sequence.directory, file, mark, overwrite);
+  RefuseToReplace(file, kind, {sequence.directory}, overwrite);
 }
 
 void CheckOutputFile(const std::string& file, const std::vector<std::string>& inputs,
-                     const std::vector<SequenceIndex>& sequences, const std::string& mark,
+                     const std::vector<SequenceIndex>& sequences, const OutputKind& kind,
                      std::optional<bool> overwrite) {
   RefuseToOverwrite(inputs, file);
   for (const SequenceIndex& sequence : sequences) {
-    RefuseToReplaceInSequence(sequence, file, mark, overwrite);
+    RefuseToReplaceInSequence(sequence, file, kind, overwrite);
   }
+  RefuseToReplace(file, kind, {}, overwrite);
   CheckWritable(file);
 }
 

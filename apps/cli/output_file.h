@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "msc_vo/datasets/sequence.h"
@@ -15,25 +16,37 @@ namespace msc_vo {
 /// Whether two names are those of the same file, which need not exist yet. Links are followed.
 bool AreSameFile(const std::string& a, const std::string& b);
 
-/// Whether a file has `mark` in its first kilobyte, by which an earlier result of the same kind is
-/// recognised. False for an empty mark.
-bool HasMark(const std::string& file, const std::string& mark);
+/// How earlier results of one kind are recognised by their first kilobyte. Both texts may be empty:
+/// then they are not recognised by it.
+struct OutputKind {
+  OutputKind(const char* text) : mark(text) {}                  // NOLINT: implicit
+  OutputKind(std::string text = "") : mark(std::move(text)) {}  // NOLINT: implicit
+  OutputKind(std::string text, std::string expression)
+      : mark(std::move(text)), beginning(std::move(expression)) {}
 
-/// Throws std::runtime_error if `file` exists below the folder of a sequence, unless it is an
-/// earlier result of the same kind, see HasMark(), or below a folder with results of this sequence.
-/// `overwrite`: the value of the option --overwrite, which permits it; none: there is no option.
-void RefuseToReplaceInFolder(const std::string& folder, const std::string& file,
-                             const std::string& mark, std::optional<bool> overwrite = {});
+  /// Text that no other program writes.
+  std::string mark;
+  /// Regular expression of the beginning, which files of other programs may have, too. It is not
+  /// sufficient in the folder of a sequence, outside results of a run over the sequence.
+  std::string beginning;
+};
+
+/// Throws std::runtime_error, naming the file and the fix, if `file` exists and is not recognised
+/// as an earlier result of the same kind. `sequences`: the folders of the sequences that the
+/// command reads. `overwrite`: the value of the option --overwrite, which permits it; none: there
+/// is no option.
+void RefuseToReplace(const std::string& file, const OutputKind& kind,
+                     const std::vector<std::string>& sequences, std::optional<bool> overwrite = {});
 
 /// The same; throws, too, if writing `file` would destroy a part of the sequence.
 void RefuseToReplaceInSequence(const SequenceIndex& sequence, const std::string& file,
-                               const std::string& mark, std::optional<bool> overwrite = {});
+                               const OutputKind& kind, std::optional<bool> overwrite = {});
 
 /// Tests before long work that its result can be written to `file`. Throws std::runtime_error if it
 /// would be written over one of `inputs` (names may be empty), as RefuseToReplaceInSequence() for
-/// each of `sequences`, or if it cannot be written.
+/// each of `sequences`, as RefuseToReplace(), or if it cannot be written.
 void CheckOutputFile(const std::string& file, const std::vector<std::string>& inputs,
-                     const std::vector<SequenceIndex>& sequences, const std::string& mark,
+                     const std::vector<SequenceIndex>& sequences, const OutputKind& kind,
                      std::optional<bool> overwrite = {});
 
 /// Writes a page (.svg: as an image). Throws std::runtime_error, naming the file, if it cannot be

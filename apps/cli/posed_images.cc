@@ -19,7 +19,9 @@ namespace {
 
 std::vector<TimedPose> ReadUsable(const std::string& path, bool all_poses) {
   std::vector<TimedPose> poses;
-  for (const TimedPose& pose : ReadTrajectory(path)) {
+  const std::vector<TimedPose> all = ReadTrajectory(path);
+  if (all.empty()) throw std::runtime_error(path + ": has no poses; is it the right file?");
+  for (const TimedPose& pose : all) {
     if (pose.is_estimated || all_poses) poses.push_back(pose);
   }
   if (poses.empty()) {

@@ -47,6 +47,7 @@ WindowObserver WindowRecorder(const std::string& folder, const SequenceIndex& se
                               std::string* problem) {
   if (folder.empty()) return {};
   RefuseToOverwrite(InputFolders(sequence), folder);
+  RefuseSequenceFolder(folder);
   MakeFolder(folder);
   return [folder, problem](KeyframeId keyframe, const BundleAdjustmentOptions& options,
                            const WindowData& data) {
@@ -191,7 +192,9 @@ void CheckPaths(const ReplayArguments& arguments, const SequenceIndex& index,
                 const SequenceIdentity& sequence, const std::string& output, bool is_resumed) {
   RefuseToOverwriteInputs(index, arguments.configuration.InputFiles(), output);
   RefuseSharedPaths(arguments, index, output);
-  if (!arguments.overwrite && !is_resumed) RefuseToOverwriteOthers(output, sequence);
+  if (is_resumed) return;
+  RefuseSequenceFolder(output);
+  if (!arguments.overwrite) RefuseToOverwriteOthers(output, sequence, ResultFileNames());
 }
 
 // Adds the warnings of the checks of the sequence, and new ones if depth contradicts the images, or

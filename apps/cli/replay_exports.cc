@@ -34,7 +34,7 @@ void CheckBeforeRun(const RunExport& one, const ReplayArguments& arguments,
   std::vector<std::string> inputs = arguments.configuration.InputFiles();
   inputs.insert(inputs.end(), {one.map, arguments.map.localize});
   if (one.format != "colmap") {
-    return CheckOutputFile(one.output, inputs, {sequence.index()}, ExportMark(one.format),
+    return CheckOutputFile(one.output, inputs, {sequence.index()}, KindOfExport(one.format),
                            one.overwrite);
   }
   RefuseToOverwrite(InputFolders(sequence.index()), one.output);

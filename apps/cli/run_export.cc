@@ -37,6 +37,14 @@ namespace fs = std::filesystem;
 
 constexpr char kTumMark[] = "# written by msc_vo export";
 
+// Regular expressions, see OutputKind. The columns of FormatEuroc(): those of EuRoC also have
+// velocities.
+constexpr char kEurocBeginning[] = R"(#timestamp \[ns\],p_RS_R_x[^v\n]*q_RS_z \[\]\n)";
+// Twelve numbers as FormatKitti() writes them: without trailing zeros, which those of KITTI have.
+constexpr char kKittiBeginning[] = R"((-?\d+(\.\d*[1-9])?(e[+-]\d+)?[ \n]){12})";
+// The profile and the name of the program that wrote the file.
+constexpr char kMcapBeginning[] = R"([^M]MCAP0\r\n[\s\S]{13}ros2[\s\S]{4}msc_vo )";
+
 bool NeedsImages(const std::string& format) { return format == "nerfstudio" || format == "ply"; }
 
 std::string Absolute(const std::string& path) {
@@ -211,11 +219,15 @@ const std::vector<std::string>& ExportFormats() {
 
 bool IsMapFormat(const std::string& format) { return format == "colmap" || format == "g2o"; }
 
-std::string ExportMark(const std::string& format) {
+OutputKind KindOfExport(const std::string& format) {
   if (format == "nerfstudio") return kNerfstudioMark;
   if (format == "tum") return kTumMark;
   if (format == "g2o") return kG2oMark;
-  return format == "ply" ? kSurfaceMark : "";
+  if (format == "ply") return kSurfaceMark;
+  if (format == "euroc") return {"", kEurocBeginning};
+  if (format == "kitti") return {"", kKittiBeginning};
+  if (format == "mcap") return {"", kMcapBeginning};
+  return {};
 }
 
 void CheckExport(const RunExport& arguments, const RgbdDecoder& sequence) {
@@ -251,11 +263,12 @@ void WriteExport(const RunExport& arguments) {
   if (const auto identity = ReadIdentity(arguments.run)) {
     inputs.push_back(identity->path);
     if (!NeedsImages(arguments.format)) {  // which is checked with the images
-      RefuseToReplaceInFolder(identity->path, arguments.output, ExportMark(arguments.format),
-                              arguments.overwrite);
+      RefuseToReplace(arguments.output, KindOfExport(arguments.format), {identity->path},
+                      arguments.overwrite);
     }
   }
   RefuseToOverwrite(inputs, arguments.output);
+  RefuseToReplace(arguments.output, KindOfExport(arguments.format), {}, arguments.overwrite);
   if (arguments.format == "mcap") return WriteMcap(arguments);
   if (arguments.format == "ply") return WritePly(arguments);
   WriteFile(arguments.output, arguments.format == "nerfstudio" ? FormatNerfstudioOf(arguments)

@@ -9,6 +9,7 @@
 
 #include "apps/cli/configuration_arguments.h"
 #include "apps/cli/depth_fusion.h"
+#include "apps/cli/output_file.h"
 #include "apps/cli/posed_images.h"
 #include "apps/cli/sequence_arguments.h"
 
@@ -26,7 +27,7 @@ struct RunExport {
   PoseSelection poses;
   bool binary = false;            ///< colmap
   bool images = false;            ///< mcap
-  std::optional<bool> overwrite;  ///< see RefuseToReplaceInFolder()
+  std::optional<bool> overwrite;  ///< see RefuseToReplace()
   /// mcap: whether a map without keyframes of the run is an error; else features are left out with
   /// a warning.
   bool requires_features = true;
@@ -39,9 +40,8 @@ const std::vector<std::string>& ExportFormats();
 /// Whether a format is made of a map file: colmap and g2o.
 bool IsMapFormat(const std::string& format);
 
-/// Text at the beginning of the exports of a format, see HasMark(). Empty if earlier exports cannot
-/// be distinguished from inputs.
-std::string ExportMark(const std::string& format);
+/// How earlier exports of a format are recognised.
+OutputKind KindOfExport(const std::string& format);
 
 /// Throws std::runtime_error that names the fix if a format cannot be made of a sequence, or not by
 /// this build.

@@ -80,7 +80,9 @@ void RefuseSharedPaths(const ReplayArguments& arguments, const SequenceIndex& se
   }
   if (arguments.view.overlay.empty()) return;
   RefuseToOverwrite(arguments.configuration.InputFiles(), arguments.view.overlay);
-  RefuseToOverwriteSequence(sequence, arguments.view.overlay);
+  constexpr char kMp4Beginning[] = R"([\s\S]{4}ftyp)";
+  RefuseToReplaceInSequence(sequence, arguments.view.overlay, {"", kMp4Beginning},
+                            arguments.overwrite);
 }
 
 }  // namespace msc_vo

@@ -10,6 +10,7 @@
 
 #include "apps/cli/commands.h"
 #include "apps/cli/configuration_arguments.h"
+#include "apps/cli/output_file.h"
 #include "msc_vo/recording/window_file.h"
 #include "msc_vo/recording/window_json.h"
 #include "msc_vo/text/files.h"
@@ -18,6 +19,8 @@
 namespace msc_vo {
 
 namespace {
+
+constexpr char kWindowMark[] = "msc_vo_window";  // its version follows
 
 struct SolveWindowArguments {
   std::string file;
@@ -59,7 +62,10 @@ void PrintSummary(const WindowData& data, const BundleAdjustmentSummary& summary
 }
 
 int Run(const SolveWindowArguments& arguments) {
-  RefuseToOverwrite({arguments.file, arguments.configuration.config}, arguments.output);
+  if (!arguments.output.empty()) {
+    CheckOutputFile(arguments.output, {arguments.file, arguments.configuration.config}, {},
+                    kWindowMark);
+  }
   RecordedWindow window = ReadWindow(arguments.file);
   window.options = Options(window.options, arguments.configuration);
   const Stopwatch stopwatch;

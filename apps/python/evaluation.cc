@@ -62,6 +62,11 @@ TrajectoryFile TrajectoryArgument(const py::object& value, const std::string& na
   return trajectory;
 }
 
+void RequirePoses(const std::string& name, const TrajectoryFile& file) {
+  const std::string problem = file.DescribeLack();
+  if (!problem.empty()) FailArgument(name, problem);
+}
+
 DeltaUnit UnitArgument(const std::string& name) {
   if (name == "frames") return DeltaUnit::kFrames;
   if (name == "metres") return DeltaUnit::kMetres;
@@ -89,6 +94,8 @@ TrajectoryError EvaluatePoses(const py::object& gt, const py::object& est, const
   RequireValid(options);
   TrajectoryFile reference = TrajectoryArgument(gt, "gt");
   TrajectoryFile estimate = TrajectoryArgument(est, "est");
+  RequirePoses("gt", reference);
+  RequirePoses("est", estimate);
   std::vector<std::string> warnings;
   if (reference.num_left_out > 0) warnings.push_back("gt: " + reference.DescribeLeftOut());
   if (estimate.num_left_out > 0) warnings.push_back("est: " + estimate.DescribeLeftOut());

@@ -98,11 +98,24 @@ void WriteIdentity(const std::string& directory, const SequenceIdentity& sequenc
   WriteFile(PathIn(directory, "sequence.json"), FormatJson(json));
 }
 
-void RefuseToOverwriteOthers(const std::string& directory, const SequenceIdentity& sequence) {
+void RefuseToOverwriteOthers(const std::string& directory, const SequenceIdentity& sequence,
+                             const std::vector<std::string>& names) {
+  constexpr char kFix[] = "; give another folder with --output, or use --overwrite";
   const std::optional<SequenceIdentity> earlier = ReadIdentity(directory);
-  if (!earlier || earlier->IsSame(sequence)) return;
-  throw std::runtime_error(directory + ": holds the results of another sequence, " + earlier->path +
-                           "; give another folder with --output, or use --overwrite");
+  if (earlier && !earlier->IsSame(sequence)) {
+    throw std::runtime_error(directory + ": holds the results of another sequence, " +
+                             earlier->path + kFix);
+  }
+  for (const char* description : {"sequence.json", "summary.json"}) {
+    if (HasEntry(PathIn(directory, description))) return;
+  }
+  for (const std::string& name : names) {
+    const std::string path = PathIn(directory, name);
+    std::error_code error;
+    if (!fs::is_regular_file(path, error)) continue;  // writing it fails, and names the reason
+    throw std::runtime_error(path + ": exists, and is not the result of a run: " + directory +
+                             " has neither sequence.json nor summary.json" + kFix);
+  }
 }
 
 }  // namespace msc_vo

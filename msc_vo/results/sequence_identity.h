@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "msc_vo/datasets/sequence.h"
 
@@ -30,7 +31,10 @@ void WriteIdentity(const std::string& directory, const SequenceIdentity& sequenc
 /// The sequence whose results are in a folder; none if there are no results or they do not say it.
 std::optional<SequenceIdentity> ReadIdentity(const std::string& directory);
 
-/// Throws std::runtime_error that names the other sequence if `directory` holds results of one.
-void RefuseToOverwriteOthers(const std::string& directory, const SequenceIdentity& sequence);
+/// Throws std::runtime_error that names the other sequence if `directory` holds results of one, or
+/// that names one of the files `names` if there is one, but neither sequence.json nor summary.json,
+/// so that it is no result of a run.
+void RefuseToOverwriteOthers(const std::string& directory, const SequenceIdentity& sequence,
+                             const std::vector<std::string>& names);
 
 }  // namespace msc_vo

@@ -272,6 +272,40 @@ TEST_F(EvaluateCommandTest, WritesPlots) {
   EXPECT_THAT(Evaluate({"--plot", Path("truth.svg")}).output, LineNames("error:", "truth.svg"));
 }
 
+TEST_F(EvaluateCommandTest, SaysWhichFileHasNoPoses) {
+  const std::string truth = ReadFile(Path("truth.txt"));
+  for (const char* name : {"estimate.txt", "truth.txt"}) {
+    WriteText("truth.txt", truth);
+    WriteText("estimate.txt", truth);
+    for (const char* text : {"", "# timestamp tx ty tz qx qy qz qw\n", "0 nan 0 0 0 0 0 1\n"}) {
+      WriteText(name, text);
+      const CommandOutcome outcome = Evaluate({});
+      EXPECT_EQ(outcome.exit_code, 1);
+      EXPECT_THAT(outcome.output, LineNames("error:", Path(name) + ": has no poses"));
+      EXPECT_THAT(outcome.output, testing::Not(HasSubstr("clock")));
+    }
+  }
+}
+
+TEST_F(EvaluateCommandTest, FailsOnATrajectoryWithOtherColumns) {
+  WriteText("estimate.txt", "1 0.5 0.5 0.5 0.5 1 2 0.3\n2 0.5 0.5 0.5 0.5 2 1 0.3\n");
+  const CommandOutcome outcome = Evaluate({});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.output, LineNames("error:", "estimate.txt:1", "columns 2-5"));
+}
+
+TEST_F(EvaluateCommandTest, ReplacesOnlyPlotsOfItsOwn) {
+  for (const char* name : {"plot.html", "plot.svg"}) {
+    WriteText(name, "<title>another</title>");
+    const CommandOutcome outcome = Evaluate({"--plot", Path(name)});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.output, LineNames("error:", Path(name), "exists", "remove"));
+    EXPECT_EQ(ReadFile(Path(name)), "<title>another</title>");
+    std::filesystem::remove(Path(name));
+    for (int i = 0; i < 2; ++i) EXPECT_EQ(Evaluate({"--plot", Path(name)}).exit_code, 0);
+  }
+}
+
 TEST_F(EvaluateCommandTest, ReportsInvalidFiles) {
   const CommandOutcome outcome =
       Evaluate({"--lines", Path("edges.ply"), "--edges", Path("edges.ply")});

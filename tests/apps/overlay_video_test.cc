@@ -59,15 +59,27 @@ TEST_F(OverlayVideoTest, DoesNotChangeTheTrajectory) {
 }
 
 TEST_F(OverlayVideoTest, ReplacesAVideoAtTheEndOfTheRun) {
-  WriteText("room.mp4", "an earlier one");
+  const std::string earlier(
+      "\0\0\0\x20"
+      "ftypisom an earlier one",
+      27);
+  WriteText("room.mp4", earlier);
   WriteText("broken.map", "no map");
   EXPECT_EQ(Replay({"--overlay", Path("room.mp4"), "--map", Path("broken.map")}).exit_code, 1);
-  EXPECT_EQ(ReadFile(Path("room.mp4")), "an earlier one");
+  EXPECT_EQ(ReadFile(Path("room.mp4")), earlier);
   const CommandOutcome outcome = Replay({"--overlay", Path("room.mp4")});
   if (outcome.output.find("encoder") != std::string::npos) GTEST_SKIP() << outcome.output;
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
   EXPECT_TRUE(cv::VideoCapture(Path("room.mp4")).isOpened());
   for (const std::string& path : ListFolder(Folder())) EXPECT_THAT(path, Not(HasSubstr("partial")));
+}
+
+TEST_F(OverlayVideoTest, ReplacesOnlyVideos) {
+  WriteText("room.mp4", "no video");
+  const CommandOutcome outcome = Replay({"--overlay", Path("room.mp4")});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.output, LineNames("error:", Path("room.mp4"), "exists", "--overwrite"));
+  EXPECT_EQ(ReadFile(Path("room.mp4")), "no video");
 }
 
 TEST_F(OverlayVideoTest, RefusesNamesAndFoldersThatCannotBe) {

@@ -125,6 +125,26 @@ TEST_F(OverwritingTest, BenchmarkRefusesToOverwriteResultsOfAnotherSequence) {
   EXPECT_THAT(benchmark("office", {"--overwrite"}), testing::Not(Names("--overwrite")));
 }
 
+TEST_F(OverwritingTest, BenchmarkReplacesOnlyTablesOfBenchmarks) {
+  Synthesize("room");
+  WriteText("site/index.html", "mine\n");
+  const std::vector<std::string> benchmark = {"benchmark", Path("room"), "--quiet",   "--modes",
+                                              "pl-vo",     "--output",   Path("site")};
+  const CommandOutcome refused = RunCommand(benchmark);
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.output, LineNames("error:", Path("site/index.html"), "--overwrite"));
+  EXPECT_EQ(ReadFile(Path("site/index.html")), "mine\n");
+  fs::remove(Path("site/index.html"));
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_THAT(RunCommand(benchmark).output, testing::Not(HasSubstr("exists")));
+  }
+  EXPECT_TRUE(HasEntry(Path("site/index.html")));
+  WriteText("merged/benchmark.md", "mine\n");
+  EXPECT_THAT(RunCommand({"benchmark", "--merge", Path("site"), "--output", Path("merged")}).output,
+              LineNames("error:", Path("merged/benchmark.md"), "--overwrite"));
+  EXPECT_EQ(ReadFile(Path("merged/benchmark.md")), "mine\n");
+}
+
 TEST_F(OverwritingTest, RefusesToOverwriteTheConfiguration) {
   Synthesize("room");
   WriteText("out/summary.json", "mode: pl-vo\n");
@@ -145,6 +165,14 @@ TEST_F(OverwritingTest, RefusesToOverwriteWindowsAndDevices) {
     ExpectRefused({"solve-window", Path("window.txt"), "--output", Path(output)});
   }
   EXPECT_EQ(ReadFile(Path("window.txt")), before);
+  WriteText("notes.txt", "mine\n");
+  ExpectRefused({"solve-window", Path("window.txt"), "--output", Path("notes.txt")});
+  EXPECT_EQ(ReadFile(Path("notes.txt")), "mine\n");
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(
+        RunCommand({"solve-window", Path("window.txt"), "--output", Path("solved.txt")}).exit_code,
+        0);
+  }
 
   fs::create_symlink("/dev/full", Path("full"));  // never the real one: tests may run as root
   const CommandOutcome device =
@@ -169,7 +197,9 @@ TEST_F(OverwritingTest, FuseReplacesOnlySurfacesInTheFolderOfTheSequence) {
 #ifdef MSC_VO_HAS_FUSION
   for (int i = 0; i < 2; ++i) EXPECT_EQ(RunCommand(fuse("room/surface.ply")).exit_code, 0);
   WriteText("chair.ply", "ply\n");
-  EXPECT_EQ(RunCommand(fuse("room/../chair.ply")).exit_code, 0);
+  ExpectRefused(fuse("room/../chair.ply"));
+  EXPECT_EQ(RunCommand(fuse("room/../surface.ply")).exit_code, 0);
+  EXPECT_EQ(RunCommand(fuse("room/../surface.ply")).exit_code, 0);
   ExpectRefused({"export", Path("room/groundtruth.txt"), "ply", Path("room/edges.ply"),
                  "--sequence", Path("room")});
 #endif
@@ -197,8 +227,64 @@ TEST_F(OverwritingTest, ExportReplacesOnlyFilesOfItsOwnInTheFolderOfTheSequence)
         RunCommand({"export", Path("out"), "tum", Path("room/poses.txt")});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
   }
-  WriteText("out.csv", "mine\n");
-  EXPECT_EQ(RunCommand({"export", Path("out"), "euroc", Path("out.csv")}).exit_code, 0);
+}
+
+TEST_F(OverwritingTest, ExportReplacesOnlyExportsOfTheSameFormatAnywhere) {
+  Synthesize("room");
+  ASSERT_EQ(RunCommand({"replay", Path("room"), "--quiet", "--output", Path("out")}).exit_code, 0);
+  // The header of EuRoC's ground truth, a row of KITTI's, a ground truth, another program's MCAP.
+  WriteText("data.csv",
+            "#timestamp [ns],p_RS_R_x [m],p_RS_R_y [m],p_RS_R_z [m],q_RS_w [],q_RS_x [],q_RS_y [],"
+            "q_RS_z [],v_RS_R_x [m s^-1]\n");
+  WriteText("00.txt",
+            "1.000000e+00 9.043680e-12 2.326809e-11 5.551115e-17 9.043683e-12 1.000000e+00 "
+            "2.392370e-10 3.330669e-16 2.326810e-11 2.392370e-10 9.999999e-01 -4.440892e-16\n");
+  WriteText("bag.mcap", "\x89MCAP0\r\n");
+  fs::copy_file(Path("out/trajectory.txt"), Path("groundtruth.txt"));
+  const std::vector<std::string> others = {"data.csv", "00.txt", "bag.mcap", "groundtruth.txt",
+                                           "out/trajectory.txt"};
+  std::map<std::string, std::string> before;
+  for (const std::string& name : others) before[name] = ReadFile(Path(name));
+  std::vector<std::string> formats = {"tum", "kitti", "euroc", "nerfstudio"};
+#ifdef MSC_VO_HAS_MCAP
+  formats.emplace_back("mcap");
+#endif
+  for (const std::string& format : formats) {
+    for (const std::string& name : others)
+      ExpectRefused({"export", Path("out"), format, Path(name)});
+    const std::vector<std::string> own = {"export", Path("out"), format, Path("own." + format)};
+    for (int i = 0; i < 2; ++i) {
+      const CommandOutcome outcome = RunCommand(own);
+      EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    }
+  }
+  for (const std::string& name : others) EXPECT_EQ(ReadFile(Path(name)), before[name]) << name;
+  EXPECT_EQ(RunCommand({"export", Path("out"), "kitti", Path("00.txt"), "--overwrite"}).exit_code,
+            0);
+}
+
+TEST_F(OverwritingTest, ReplayWritesIntoNoFolderOfOtherFiles) {
+  Synthesize("room");
+  Synthesize("other");
+  WriteText("mine/groundtruth.txt", "0 0 0 0 0 0 0 1\n");
+  const auto other = Contents("other"), mine = Contents("mine");
+  const auto replay = [this](const std::string& output) -> std::vector<std::string> {
+    return {"replay", Path("room"), "--quiet", "--output", Path(output)};
+  };
+  for (const char* folder : {"other", "other/rgb"}) {
+    ExpectRefused(replay(folder));
+    std::vector<std::string> overwriting = replay(folder);
+    overwriting.emplace_back("--overwrite");
+    ExpectRefused(overwriting);
+    ExpectRefused({"replay", Path("room"), "--quiet", "--output", Path("new"), "--dump-windows",
+                   Path(folder)});
+  }
+  const CommandOutcome outcome = RunCommand(replay("mine"));
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.output, LineNames("error:", Path("mine/groundtruth.txt"), "--overwrite"));
+  EXPECT_EQ(Contents("other"), other);
+  EXPECT_EQ(Contents("mine"), mine);
+  for (int i = 0; i < 2; ++i) EXPECT_NE(RunCommand(replay("out")).exit_code, 1);
 }
 
 TEST_F(OverwritingTest, ReplayCanBeRepeatedWithItsExports) {
