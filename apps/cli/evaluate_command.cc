@@ -110,11 +110,10 @@ int Run(EvaluateArguments arguments) {
   if (!arguments.lines.empty() && arguments.options.alignment != Alignment::kSe3) {
     throw UsageError("--lines compares lines after a rigid alignment; leave out --align");
   }
-  if (!arguments.plot.empty()) {
-    CheckOutputFile(arguments.plot,
-                    {arguments.truth, arguments.estimate, arguments.lines, arguments.edges}, {},
-                    kComparisonMark);
-  }
+  // The errors are printed even if the plots cannot be written.
+  RefuseToOverwrite({arguments.truth, arguments.estimate, arguments.lines, arguments.edges},
+                    arguments.plot);
+  RefuseToReplace(arguments.plot, kComparisonMark, {});
   const Trajectories trajectories = ReadTrajectories(arguments);
   const TrajectoryFile &truth = trajectories.truth, &estimate = trajectories.estimate;
   const EvaluationContext context{ToString(truth.format), ToString(estimate.format),
