@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "apps/cli/sequence_arguments.h"
 #include "msc_vo/results/sequence_identity.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/text_file.h"
@@ -73,6 +74,10 @@ void RefuseToReplace(const std::string& file, const OutputKind& kind,
   const bool is_file = std::filesystem::is_regular_file(file, error);
   // Writing to a folder or a device fails by itself.
   if (!HasEntry(file) || (!is_file && std::filesystem::exists(file, error))) return;
+  const std::string name = std::filesystem::path(file).filename().string();
+  if (overwrite.value_or(false) || name == "groundtruth.txt" || name == "reference.txt") {
+    RefuseSequenceFile(file);
+  }
   if (overwrite.value_or(false) || HasMark(file, kind.mark)) return;
   const bool is_beside_input =
       std::any_of(sequences.begin(), sequences.end(),

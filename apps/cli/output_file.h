@@ -34,7 +34,7 @@ struct OutputKind {
 /// Throws std::runtime_error, naming the file and the fix, if `file` exists and is not recognised
 /// as an earlier result of the same kind. `sequences`: the folders of the sequences that the
 /// command reads. `overwrite`: the value of the option --overwrite, which permits it; none: there
-/// is no option.
+/// is no option. Neither permits images, text files beside them and the ground truth of a sequence.
 void RefuseToReplace(const std::string& file, const OutputKind& kind,
                      const std::vector<std::string>& sequences, std::optional<bool> overwrite = {});
 

@@ -49,23 +49,35 @@ SequenceIndex OpenSource(const SequenceArguments& arguments) {
   return OpenFolder(source, arguments.format, options);
 }
 
-}  // namespace
-
-void RefuseSequenceFolder(const std::string& folder) {
+// The sequences in a folder and in the one that holds it; either may be none.
+std::vector<SequenceIndex> SequencesAround(const std::string& folder) {
   std::error_code error;
   const std::filesystem::path path = std::filesystem::absolute(folder, error).lexically_normal();
-  if (!IsFolder(folder)) return;
+  std::vector<SequenceIndex> sequences;
   SequenceArguments arguments;
   for (const std::filesystem::path& directory :
        {path, (path.has_filename() ? path : path.parent_path()).parent_path()}) {
     arguments.directory = directory.string();
-    SequenceIndex index;
     try {
-      index = OpenSource(arguments);
-    } catch (const std::exception&) {
-      continue;  // is none
+      sequences.push_back(OpenSource(arguments));
+    } catch (const std::exception&) {  // is none
     }
+  }
+  return sequences;
+}
+
+}  // namespace
+
+void RefuseSequenceFolder(const std::string& folder) {
+  if (!IsFolder(folder)) return;
+  for (const SequenceIndex& index : SequencesAround(folder)) {
     RefuseToOverwrite(InputFolders(index), folder);
+  }
+}
+
+void RefuseSequenceFile(const std::string& file) {
+  for (const SequenceIndex& index : SequencesAround(ParentFolder(file))) {
+    RefuseToOverwriteSequence(index, file);
   }
 }
 

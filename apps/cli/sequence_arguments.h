@@ -43,6 +43,8 @@ RgbdDecoder OpenDecoder(const SequenceArguments& arguments, const Configuration&
 /// Throws std::runtime_error if a folder is that of a sequence which can be read, or one in it with
 /// its images.
 void RefuseSequenceFolder(const std::string& folder);
+/// The same for a file that is a part of a sequence, see RefuseToOverwriteSequence().
+void RefuseSequenceFile(const std::string& file);
 
 /// Checks a sequence before its images are used, see CheckSequenceQuickly(). Returns the warnings.
 /// Throws std::runtime_error with the first error, with which no result is right; `advice` is added

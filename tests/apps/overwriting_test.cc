@@ -261,6 +261,14 @@ TEST_F(OverwritingTest, ExportReplacesOnlyExportsOfTheSameFormatAnywhere) {
   for (const std::string& name : others) EXPECT_EQ(ReadFile(Path(name)), before[name]) << name;
   EXPECT_EQ(RunCommand({"export", Path("out"), "kitti", Path("00.txt"), "--overwrite"}).exit_code,
             0);
+  fs::copy_file(Path("own.tum"), Path("room/groundtruth.txt"),
+                fs::copy_options::overwrite_existing);
+  const auto truth = Contents("room");
+  ExpectRefused({"export", Path("out/trajectory.txt"), "tum", Path("room/groundtruth.txt")});
+  for (const char* file : {"room/groundtruth.txt", "room/rgb.txt", "room/rgb/1.000000.png"}) {
+    ExpectRefused({"export", Path("out"), "kitti", Path(file), "--overwrite"});
+  }
+  EXPECT_EQ(Contents("room"), truth);
 }
 
 TEST_F(OverwritingTest, ReplayWritesIntoNoFolderOfOtherFiles) {
