@@ -154,7 +154,7 @@ TEST(WindowCovarianceConsistency, NoDirectionIsUnderestimated) {
   }
 }
 
-TEST(WindowCovarianceConsistency, RobustLossesChangeTheErrorsLittle) {
+TEST(NoiseCovarianceConsistency, RobustLossesChangeTheErrorsLittle) {
   constexpr int kWindows = 300;
   Consistency errors(1.0);
   errors.Run(BundleAdjustmentOptions(), kWindows);
@@ -174,7 +174,7 @@ BundleAdjustmentOptions LeastSquaresWithEstimatedNoise() {
 // The distribution of an error whose sigma is estimated is not quite chi-square.
 constexpr double kSlack = 0.05;
 
-TEST(WindowCovarianceConsistency, ContainsTheErrorOfEstimatedNoise) {
+TEST(NoiseCovarianceConsistency, ContainsTheErrorOfEstimatedNoise) {
   constexpr int kWindows = 300;
   for (const int num_keyframes : {3, 5, 10, 20}) {
     Consistency errors(1.0, num_keyframes);
@@ -187,7 +187,7 @@ TEST(WindowCovarianceConsistency, ContainsTheErrorOfEstimatedNoise) {
   }
 }
 
-TEST(WindowCovarianceConsistency, ContainsTheErrorOfNoiseThatDiffers) {
+TEST(NoiseCovarianceConsistency, ContainsTheErrorOfNoiseThatDiffers) {
   constexpr int kWindows = 300;
   // Landmarks that happen to have small residuals count too much: 1.15 with three keyframes.
   for (const int num_keyframes : {3, 10}) {
@@ -200,7 +200,7 @@ TEST(WindowCovarianceConsistency, ContainsTheErrorOfNoiseThatDiffers) {
 }
 
 // As the mapper solves windows.
-TEST(WindowCovarianceConsistency, ContainsTheErrorOfEstimatedNoiseAfterFewRobustSteps) {
+TEST(NoiseCovarianceConsistency, ContainsTheErrorOfEstimatedNoiseAfterFewRobustSteps) {
   constexpr int kWindows = 300;
   BundleAdjustmentOptions options;
   options.landmark_noise.enabled = true;
@@ -214,7 +214,7 @@ TEST(WindowCovarianceConsistency, ContainsTheErrorOfEstimatedNoiseAfterFewRobust
   }
 }
 
-TEST(WindowCovarianceConsistency, NeedsTheErrorOfEstimatedNoise) {
+TEST(NoiseCovarianceConsistency, NeedsTheErrorOfEstimatedNoise) {
   constexpr int kWindows = 300;
   BundleAdjustmentOptions factors_alone = LeastSquaresWithEstimatedNoise();
   factors_alone.landmark_noise.enabled = false;
