@@ -23,6 +23,7 @@
 #include "msc_vo/diagnosis/texture.h"
 #include "msc_vo/features/frame_builder.h"
 #include "msc_vo/geometry/erase_if.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
@@ -55,6 +56,14 @@ int SampleIndex(int k, int count, int size) {
   return static_cast<int>(static_cast<int64_t>(k) * (size - 1) / (count - 1));
 }
 
+// Whether a file of the entry cannot be read, which AddFileFindings() reports.
+bool HasUnreadableFile(const SequenceIndex& index, int entry) {
+  if (index.container) return false;
+  const SequenceEntry& files = index.entries[entry];
+  return !FileProblem(files.color_path, kMaxImageBytes).empty() ||
+         !FileProblem(files.depth_path, kMaxImageBytes).empty();
+}
+
 // Features and the fine score of edges take longer than the rest: they are left out without
 // `features`.
 SampleMeasurements MeasureSample(const RgbdDecoder& decoder, int count,
@@ -66,8 +75,9 @@ SampleMeasurements MeasureSample(const RgbdDecoder& decoder, int count,
   std::optional<FrameBuilder> builder;
   if (features) builder.emplace(*features, calibration.camera, calibration.distortion);
   for (int k = 0; k < count; ++k) {
+    const int entry = SampleIndex(k, count, decoder.size());
     try {
-      const RgbdImage image = decoder.Decode(SampleIndex(k, count, decoder.size()));
+      const RgbdImage image = decoder.Decode(entry);
       sample.exposures.push_back(MeasureExposure(image.gray));
       sample.depths.push_back(MeasureDepth(image.depth));
       sample.exposures.back().measured_depth = sample.depths.back().valid;
@@ -78,6 +88,7 @@ SampleMeasurements MeasureSample(const RgbdDecoder& decoder, int count,
       sample.alignments.back().depth_delay = image.depth_delay;
       if (builder) sample.textures.push_back(MeasureTexture(builder->Build(image)));
     } catch (const std::exception& error) {
+      if (HasUnreadableFile(decoder.index(), entry)) continue;
       sample.failures.emplace_back(error.what());
     }
   }
@@ -106,8 +117,9 @@ void AddDecodingFindings(const SampleMeasurements& sample, int count, Findings* 
     findings->push_back(Error("images.decoding", sample.failures[i], ""));
   }
   if (failed == 0) {
-    findings->push_back(
-        Good("images.decoding", std::to_string(count) + " images decoded without errors"));
+    // Fewer than `count` if files are missing.
+    findings->push_back(Good("images.decoding", std::to_string(sample.exposures.size()) +
+                                                    " images decoded without errors"));
   } else if (failed > kMaxReports) {
     findings->push_back(
         Error("images.decoding", FormatText("%d of %d images cannot be used", failed, count),

@@ -149,6 +149,13 @@ TEST_F(SequenceCheckTest, ReportsMissingAndUnusableImages) {
   EXPECT_THAT(findings, Contains(Is(Severity::kError, "images.decoding", Names("4d.png"))));
 }
 
+TEST_F(SequenceCheckTest, ReportsAMissingFileOnce) {
+  std::filesystem::remove(Path("3.png"));
+  const std::vector<Finding> findings = Check();
+  EXPECT_THAT(findings, testing::Contains(Field(&Finding::text, Names("3.png"))).Times(1));
+  EXPECT_THAT(findings, Contains(Is(Severity::kGood, "images.decoding", Names("5 images"))));
+}
+
 TEST_F(SequenceCheckTest, ReportsPipesInsteadOfWaitingForThem) {
   std::filesystem::remove(Path("2d.png"));
   ASSERT_EQ(mkfifo(Path("2d.png").c_str(), 0600), 0);
