@@ -32,14 +32,16 @@ void OdometryPose::AddMotion(const TrackedFrame& tracked) {
     return;
   }
   const Rigid3 measured = *tracked.cam_from_last * base_from_odometry_;
-  if (!IsEstimated(tracked.status) || !in_gap_) {
+  if (!IsEstimated(tracked.status) || (!in_gap_ && !tracked.is_jump)) {
     cam_from_odometry_ = measured;
     in_gap_ = !IsEstimated(tracked.status);
     return;
   }
-  const CameraVelocity velocity =
-      CameraVelocity::Of(*tracked.cam_from_last, timestamp - base_timestamp_);
-  cam_from_odometry_ = velocity.Over(timestamp - timestamp_) * cam_from_odometry_;
+  if (in_gap_) {
+    const CameraVelocity velocity =
+        CameraVelocity::Of(*tracked.cam_from_last, timestamp - base_timestamp_);
+    cam_from_odometry_ = velocity.Over(timestamp - timestamp_) * cam_from_odometry_;
+  }
   // The motion that is missing is a known error of the pose.
   const Rigid3 missing = cam_from_odometry_ * measured.Inverse();
   Eigen::Matrix<double, 6, 1> error;

@@ -19,7 +19,8 @@ struct TrackedFrame;
 class OdometryPose {
  public:
   /// Adds the next tracked frame. After frames whose pose was predicted or lost, the camera moves
-  /// on from the last of these, with its mean velocity over the gap.
+  /// on from the last of these, with its mean velocity over the gap. It rests during a jump from
+  /// one image to the next (TrackedFrame::is_jump).
   void Add(const TrackedFrame& tracked);
 
   /// The pose of the last frame; identity before the first segment.

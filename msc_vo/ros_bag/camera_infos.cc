@@ -3,6 +3,8 @@
 
 #include "msc_vo/ros_bag/camera_infos.h"
 
+#include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
 #include "msc_vo/ros_bag/ros_image.h"
@@ -22,6 +24,35 @@ bool FitsTo(const ImageTopic& images, const RosCameraInfo& info) {
          (has_size || images.size.width == 0);
 }
 
+bool IsCalibrated(const RosCameraInfo& info) { return info.k[0] != 0.0; }
+
+bool AreEqual(const RosCameraInfo& a, const RosCameraInfo& b) {
+  return std::equal(std::begin(a.k), std::end(a.k), std::begin(b.k)) &&
+         std::equal(std::begin(a.p), std::end(a.p), std::begin(b.p)) && a.d == b.d &&
+         a.width == b.width && a.height == b.height && a.distortion_model == b.distortion_model;
+}
+
+// The CameraInfo of a topic: the first that is calibrated, unless the middle and the last one agree
+// on another. If the three differ, `warnings` gets one.
+RosCameraInfo ReadInfo(const BagFile& bag, const std::string& topic,
+                       std::vector<std::string>* warnings) {
+  const auto read = [&](int i) { return bag.Parse(topic, i, ParseRosCameraInfo); };
+  const int last = bag.NumMessages(topic) - 1;
+  int first = 0;
+  RosCameraInfo info = read(first);
+  while (!IsCalibrated(info) && first < last) info = read(++first);
+  const int middle = (first + last) / 2;
+  const RosCameraInfo at_middle = read(middle), at_last = read(last);
+  if (AreEqual(info, at_middle) && AreEqual(info, at_last)) return info;
+  const bool is_last = AreEqual(at_middle, at_last);
+  const int used = is_last ? last : first;
+  const int other = is_last ? first : (AreEqual(info, at_middle) ? last : middle);
+  warnings->push_back(bag.NameOf(topic, other) + " describes another camera than " +
+                      bag.NameOf(topic, used) +
+                      ", which is used: poses of images by the other one are wrong");
+  return is_last ? at_last : info;
+}
+
 }  // namespace
 
 CameraInfos::CameraInfos(const BagFile& bag, std::vector<std::string>* warnings)
@@ -29,7 +60,7 @@ CameraInfos::CameraInfos(const BagFile& bag, std::vector<std::string>* warnings)
   for (const BagTopic& topic : bag.topics()) {
     if (topic.type != "sensor_msgs/CameraInfo" || bag.NumMessages(topic.name) == 0) continue;
     try {
-      infos_[topic.name] = bag.Parse(topic.name, 0, ParseRosCameraInfo);
+      infos_[topic.name] = ReadInfo(bag, topic.name, warnings);
     } catch (const std::runtime_error& error) {  // another topic may be good
       warnings->push_back(error.what());
     }

@@ -14,7 +14,7 @@
 
 namespace msc_vo {
 
-/// The first CameraInfo of each topic of a bag.
+/// The CameraInfo of each topic of a bag: the first one that is calibrated, unless most differ.
 class CameraInfos {
  public:
   /// Damaged messages have a warning and are left out.

@@ -242,7 +242,8 @@ std::optional<Calibration> CalibrationFrom(const RosCameraInfo& info, bool is_re
   if (!lens) {
     *problem = "the lens model " + info.distortion_model + " with " +
                std::to_string(info.d.size()) +
-               " coefficients is none of plumb_bob, rational_polynomial and equidistant";
+               " coefficients is none of plumb_bob (5 coefficients other than 0), "
+               "rational_polynomial (8) and equidistant (4)";
     return std::nullopt;
   }
   calibration.distortion = *lens;

@@ -37,6 +37,9 @@ class PosePlausibility {
   /// seconds.
   bool IsImplausible(double timestamp) const { return timestamp < implausible_until_; }
 
+  /// Whether a pose was found implausible since the last UpdateJumpCovariance().
+  bool is_marked() const { return is_marked_; }
+
   /// Covariance of the camera, in its frame, to be added to that of an implausible pose: the camera
   /// may be where it was predicted, at the largest jump of these seconds. Call it once for each
   /// pose, after the others.

@@ -340,6 +340,7 @@ void Tracker::ConfirmStatus(const Input& input, PoseOrigin origin, TrackedFrame*
     plausibility_.MarkImplausible(timestamp);
   }
   tracked->is_implausible = plausibility_.IsImplausible(timestamp);
+  tracked->is_jump = plausibility_.is_marked();
   if (tracked->is_implausible) tracked->status = TrackingStatus::kWeak;
 }
 

@@ -25,8 +25,10 @@ class OdometryPoseTest : public testing::Test {
   static Rigid3 step() { return {ExpSO3({0.0, 0.02, 0.0}), {0.05, 0.0, 0.01}}; }
 
   // The frame `steps` after the last one that was estimated; none: it begins a map.
-  void Add(TrackingStatus status, std::optional<int> steps, bool is_keyframe = false) {
+  void Add(TrackingStatus status, std::optional<int> steps, bool is_keyframe = false,
+           bool is_jump = false) {
     TrackedFrame tracked;
+    tracked.is_jump = is_jump;
     auto frame = std::make_shared<Frame>();
     frame->timestamp = 0.1 * index_++;
     tracked.frame = frame;
@@ -39,6 +41,7 @@ class OdometryPoseTest : public testing::Test {
     pose_.Add(tracked);
     last_step_ = pose_.cam_from_odometry() * before.Inverse();
   }
+  void AddJump(int steps) { Add(TrackingStatus::kWeak, steps, false, true); }
   void Skip(int count) { index_ += count; }
   void ExpectLastStep(const Rigid3& expected, double tolerance = 1e-9) const {
     EXPECT_TRUE(last_step_.params.isApprox(expected.params, tolerance))
@@ -80,6 +83,18 @@ TEST_F(OdometryPoseTest, DoesNotJumpAfterAGap) {
   Add(TrackingStatus::kTracked, 4);  // found again where the camera is
   ExpectLastStep(step(), 0.01);      // by the mean velocity over the gap
   Add(TrackingStatus::kTracked, 1);
+  ExpectLastStep(step());
+}
+
+// As when the camera was moved while no image was recorded, and is found in another place.
+TEST_F(OdometryPoseTest, RestsDuringAJump) {
+  Add(TrackingStatus::kTracked, {}, true);
+  Add(TrackingStatus::kTracked, 1);
+  AddJump(50);
+  ExpectLastStep(Rigid3());
+  const double variance = pose_.covariance()->bottomRightCorner<3, 3>().trace();
+  EXPECT_GT(std::sqrt(variance), 0.9 * Steps(50).translation().norm());
+  Add(TrackingStatus::kWeak, 1);
   ExpectLastStep(step());
 }
 

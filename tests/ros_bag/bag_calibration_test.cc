@@ -218,6 +218,22 @@ TEST_F(BagCalibrationTest, WarnsOfACameraInfoOfDepthThatIsNotRegistered) {
   }
 }
 
+// The first message may be older than the calibration, or of another setting of the camera.
+TEST_F(BagCalibrationTest, ReadsTheCameraInfoOfMostImages) {
+  for (const double first : {0.0, 400.0, 525.0}) {
+    Begin("infos.bag");
+    WriteInfo("/camera/color/camera_info", InfoIn("color", first));
+    for (int i = 0; i < 3; ++i) WriteInfo("/camera/color/camera_info", InfoIn("color"));
+    WriteColor("color");
+    WriteDepth("color");
+    const SequenceIndex index = Open();
+    ASSERT_TRUE(index.calibration);
+    EXPECT_EQ(index.calibration->camera.fx, 525.0);
+    const auto is_warning = Names("/camera/color/camera_info, message 0", "message 3");
+    EXPECT_THAT(index.warnings, testing::Contains(is_warning).Times(first == 400.0 ? 1 : 0));
+  }
+}
+
 TEST_F(BagCalibrationTest, WarnsOfNoCameraThatTheUserGives) {
   Begin("x.bag");
   WriteCameras("color", "depth", 400.0);
