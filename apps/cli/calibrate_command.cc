@@ -89,9 +89,10 @@ void CheckOutputs(const CalibrateArguments& arguments, const std::vector<RgbdDec
   std::vector<SequenceIndex> sequences;
   for (const RgbdDecoder& decoder : decoders) sequences.push_back(decoder.index());
   const std::vector<std::string> inputs = arguments.configuration.InputFiles();
-  if (!arguments.output.empty()) CheckOutputFile(arguments.output, inputs, sequences, kCameraMark);
+  if (!arguments.output.empty())
+    CheckOutputFile(arguments.output, inputs, sequences, {kCameraMark});
   if (arguments.plot.empty()) return;
-  CheckOutputFile(arguments.plot, inputs, sequences, std::string("<title>") + kPlotTitle);
+  CheckOutputFile(arguments.plot, inputs, sequences, {std::string("<title>") + kPlotTitle});
 }
 
 // Prints the results and writes the files, first the one that counts. `stored_size`: of the colour

@@ -113,7 +113,7 @@ int Run(EvaluateArguments arguments) {
   // The errors are printed even if the plots cannot be written.
   RefuseToOverwrite({arguments.truth, arguments.estimate, arguments.lines, arguments.edges},
                     arguments.plot);
-  RefuseToReplace(arguments.plot, kComparisonMark, {});
+  RefuseToReplace(arguments.plot, {kComparisonMark}, {});
   const Trajectories trajectories = ReadTrajectories(arguments);
   const TrajectoryFile &truth = trajectories.truth, &estimate = trajectories.estimate;
   const EvaluationContext context{ToString(truth.format), ToString(estimate.format),

@@ -129,10 +129,10 @@ std::string ColmapImageName(const SequenceIndex& index, const SequenceEntry& ent
 }
 
 void CheckMapExport(const RunExport& arguments) {
-  if (arguments.format == "g2o") return CheckFile(arguments, arguments.output, kG2oMark);
+  if (arguments.format == "g2o") return CheckFile(arguments, arguments.output, {kG2oMark});
   for (const ModelFile& file : arguments.binary ? FormatColmapBinary({}) : FormatColmapText({})) {
     const std::string header = file.content.substr(0, file.content.find('\n'));
-    CheckFile(arguments, PathIn(arguments.output, file.name), arguments.binary ? "" : header);
+    CheckFile(arguments, PathIn(arguments.output, file.name), {arguments.binary ? "" : header});
   }
   RefuseSequenceFolder(arguments.output);
 }

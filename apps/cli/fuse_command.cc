@@ -75,7 +75,7 @@ int Run(const FuseArguments& arguments) {
   CheckInput(decoder);
   std::vector<std::string> inputs = arguments.configuration.InputFiles();
   inputs.insert(inputs.end(), {arguments.trajectory, arguments.report});
-  CheckOutputFile(arguments.output, inputs, {decoder.index()}, kSurfaceMark);
+  CheckOutputFile(arguments.output, inputs, {decoder.index()}, {kSurfaceMark});
   const std::string page = ReadReport(arguments.report);
   const std::vector<PosedImage> images =
       FindPosedImages(arguments.trajectory, arguments.poses, decoder);

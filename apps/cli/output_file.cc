@@ -74,6 +74,7 @@ void RefuseToReplace(const std::string& file, const OutputKind& kind,
   const bool is_file = std::filesystem::is_regular_file(file, error);
   // Writing to a folder or a device fails by itself.
   if (!HasEntry(file) || (!is_file && std::filesystem::exists(file, error))) return;
+  // Ground truth may be an earlier export, too.
   const std::string name = std::filesystem::path(file).filename().string();
   if (overwrite.value_or(false) || name == "groundtruth.txt" || name == "reference.txt") {
     RefuseSequenceFile(file);

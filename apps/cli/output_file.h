@@ -5,7 +5,6 @@
 
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "msc_vo/datasets/sequence.h"
@@ -19,16 +18,11 @@ bool AreSameFile(const std::string& a, const std::string& b);
 /// How earlier results of one kind are recognised by their first kilobyte. Both texts may be empty:
 /// then they are not recognised by it.
 struct OutputKind {
-  OutputKind(const char* text) : mark(text) {}                  // NOLINT: implicit
-  OutputKind(std::string text = "") : mark(std::move(text)) {}  // NOLINT: implicit
-  OutputKind(std::string text, std::string expression)
-      : mark(std::move(text)), beginning(std::move(expression)) {}
-
   /// Text that no other program writes.
-  std::string mark;
+  std::string mark = {};
   /// Regular expression of the beginning, which files of other programs may have, too. It is not
   /// sufficient in the folder of a sequence, outside results of a run over the sequence.
-  std::string beginning;
+  std::string beginning = {};
 };
 
 /// Throws std::runtime_error, naming the file and the fix, if `file` exists and is not recognised

@@ -220,10 +220,10 @@ const std::vector<std::string>& ExportFormats() {
 bool IsMapFormat(const std::string& format) { return format == "colmap" || format == "g2o"; }
 
 OutputKind KindOfExport(const std::string& format) {
-  if (format == "nerfstudio") return kNerfstudioMark;
-  if (format == "tum") return kTumMark;
-  if (format == "g2o") return kG2oMark;
-  if (format == "ply") return kSurfaceMark;
+  if (format == "nerfstudio") return {kNerfstudioMark};
+  if (format == "tum") return {kTumMark};
+  if (format == "g2o") return {kG2oMark};
+  if (format == "ply") return {kSurfaceMark};
   if (format == "euroc") return {"", kEurocBeginning};
   if (format == "kitti") return {"", kKittiBeginning};
   if (format == "mcap") return {"", kMcapBeginning};

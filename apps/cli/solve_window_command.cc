@@ -64,7 +64,7 @@ void PrintSummary(const WindowData& data, const BundleAdjustmentSummary& summary
 int Run(const SolveWindowArguments& arguments) {
   if (!arguments.output.empty()) {
     CheckOutputFile(arguments.output, {arguments.file, arguments.configuration.config}, {},
-                    kWindowMark);
+                    {kWindowMark});
   }
   RecordedWindow window = ReadWindow(arguments.file);
   window.options = Options(window.options, arguments.configuration);

@@ -4,22 +4,19 @@
 #include "apps/cli/synthesize_arguments.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "apps/cli/argument_checks.h"
 #include "apps/cli/commands.h"
 #include "msc_vo/geometry/angles.h"
-#include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
 
 namespace {
-
-constexpr int kMinSide = 32, kMaxSide = 8192;  // of images, pixels
 
 // The rig that --rig describes; none without.
 std::optional<DepthRig> MakeRig(const std::vector<double>& numbers) {
@@ -77,46 +74,15 @@ SpecularOptions SpecularSurfaces(const SynthesizeArguments& arguments) {
   return {has("mirror"), has("glass"), has("floor"), has("screen")};
 }
 
-// Throws UsageError that names the argument and its value if values are too large together.
-void CheckLimits(const SynthesizeArguments& arguments, const SyntheticSequenceOptions& options) {
-  const auto fail = [](const std::string& argument, const std::string& problem) {
-    throw UsageError(argument + ": " + problem);
-  };
-  const double interval = 1.0 / options.fps;
-  const std::string rate = FormatText("the time between two images (--fps %g, --stride %d)",
-                                      arguments.options.fps, arguments.stride);
-  const auto seconds = [](const char* argument, double value) {
-    return std::string(argument) + " " + FormatNumber(value) + " s";
-  };
-  if (!(std::abs(options.depth_delay) < 0.5 * interval)) {
-    fail(seconds("--depth-delay", options.depth_delay),
-         FormatText("must be less than %.6g s, half ", 0.5 * interval) + rate);
+// An error of SyntheticSequenceOptions with the names of the arguments.
+std::string NameArguments(std::string error) {
+  for (const auto& [option, argument] :
+       {std::pair("depth_delay", "--depth-delay"), std::pair("readout_time", "--readout-time"),
+        std::pair("focal_length", "--focal-length"), std::pair("depth_rig", "--rig")}) {
+    const size_t begin = error.find(option);
+    if (begin != std::string::npos) error.replace(begin, std::string(option).size(), argument);
   }
-  const std::string readout = seconds("--readout-time", options.readout_time);
-  if (!(std::abs(options.readout_time) <= interval)) {
-    fail(readout, FormatText("must be at most %.6g s, ", interval) + rate);
-  }
-  if (!options.lens.IsZero() && options.readout_time != 0.0) {
-    fail(readout, "a lens needs a global shutter; leave out --readout-time or --lens");
-  }
-  const auto check_focal_length = [&](const std::string& argument, double pixels) {
-    if (pixels >= 0.1 * options.width && pixels <= 10.0 * options.width) return;
-    fail(argument + " " + FormatNumber(pixels) + " px",
-         FormatText("must be from 0.1 to 10 image widths, %g to %d px at --width %d",
-                    0.1 * options.width, 10 * options.width, options.width));
-  };
-  if (options.focal_length != 0.0) check_focal_length("--focal-length", options.focal_length);
-  if (options.depth_rig) {
-    check_focal_length("--rig: the focal length", options.depth_rig->focal_length);
-    const double offset = options.depth_rig->depth_from_color.translation().norm();
-    if (offset > 1.0)
-      fail("--rig", FormatText("the offset of %g m must be at most 1 metre", offset));
-  }
-  if (options.height < kMinSide || options.height > kMaxSide) {
-    fail("--width " + std::to_string(options.width),
-         FormatText("gives a height of %d px, which must be from %d to %d; give --height",
-                    options.height, kMinSide, kMaxSide));
-  }
+  return error;
 }
 
 // Noise, artefacts and timing of the images.
@@ -265,11 +231,11 @@ void AddSequenceArguments(CLI::App* command, SynthesizeArguments* arguments) {
   command
       ->add_option("--width", arguments->options.width,
                    "Image width, pixels; the focal length is proportional")
-      ->transform(WholeNumberFrom(kMinSide, kMaxSide))
+      ->transform(WholeNumberFrom(32, 8192))
       ->capture_default_str();
   command
       ->add_option("--height", arguments->height, "Image height, pixels; default: 3/4 of the width")
-      ->transform(WholeNumberFrom(kMinSide, kMaxSide));
+      ->transform(WholeNumberFrom(32, 8192));
   command->add_option("--fps", arguments->options.fps, "Frames per second")
       ->check(NumberFrom(0.01, 1000.0))
       ->capture_default_str();
@@ -346,9 +312,8 @@ SyntheticSequenceOptions SequenceOptions(const SynthesizeArguments& arguments) {
         "--returns needs a scene with places that look alike: give --scene "
         "rooms, mirrored, floors or desks");
   }
-  CheckLimits(arguments, options);
   std::string error;
-  if (!options.IsValid(&error)) throw UsageError(error);
+  if (!options.IsValid(&error)) throw UsageError(NameArguments(error));
   return options;
 }
 

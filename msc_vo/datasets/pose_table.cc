@@ -245,8 +245,8 @@ class TableReader {
     file.has_stamps = columns_.time.has_value();
     file.unit = columns_.unit;
     // The header of EuRoC need not name the unit.
-    const bool is_named_euroc = is_named_ && !file.unit && columns_.time == 0u;
-    if (is_euroc && (!is_named_ || (is_named_euroc && LooksLikeEuroc(rows_)))) {
+    const bool lacks_unit = !file.unit && columns_.time == 0u && LooksLikeEuroc(rows_);
+    if (is_euroc && (!is_named_ || lacks_unit)) {
       file.unit = TimeUnit::kNanoseconds;
     }
     const double rate = UnitsPerSecond(file.unit.value_or(TimeUnit::kSeconds));

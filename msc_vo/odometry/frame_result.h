@@ -81,7 +81,8 @@ struct FrameResult {
   Rigid3 cam_from_world;
   /// The pose by integration of the motion between images. It drifts; joins and corrections of the
   /// map do not change it. Motion that no image shows is missing: after a gap, it continues from
-  /// the pose before. A pose factor that measures the absolute pose makes it jump. Identity at the
+  /// the pose before; if the camera is found in another place from one image to the next, it rests.
+  /// A pose factor that measures the absolute pose makes it jump. Identity at the
   /// first tracked frame.
   Rigid3 cam_from_odometry;
   bool by_pose_factors = false;  ///< predicted by pose factors, not by constant velocity

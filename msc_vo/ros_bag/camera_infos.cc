@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 #include <stdexcept>
+#include <tuple>
+#include <utility>
 
 #include "msc_vo/ros_bag/ros_image.h"
 
@@ -26,14 +29,18 @@ bool FitsTo(const ImageTopic& images, const RosCameraInfo& info) {
 
 bool IsCalibrated(const RosCameraInfo& info) { return info.k[0] != 0.0; }
 
+// Whether two messages describe the same camera.
 bool AreEqual(const RosCameraInfo& a, const RosCameraInfo& b) {
-  return std::equal(std::begin(a.k), std::end(a.k), std::begin(b.k)) &&
-         std::equal(std::begin(a.p), std::end(a.p), std::begin(b.p)) && a.d == b.d &&
-         a.width == b.width && a.height == b.height && a.distortion_model == b.distortion_model;
+  const auto numbers = [](const RosCameraInfo& info) {
+    return std::tie(info.width, info.height, info.distortion_model, info.d, info.binning_x,
+                    info.binning_y, info.roi_x, info.roi_y, info.roi_width, info.roi_height);
+  };
+  return numbers(a) == numbers(b) && std::equal(std::begin(a.k), std::end(a.k), std::begin(b.k)) &&
+         std::equal(std::begin(a.p), std::end(a.p), std::begin(b.p));
 }
 
-// The CameraInfo of a topic: the first that is calibrated, unless the middle and the last one agree
-// on another. If the three differ, `warnings` gets one.
+// The first CameraInfo of a topic that is calibrated, unless those in the middle and at the end
+// agree on another camera. `warnings` gets one if they differ or are damaged.
 RosCameraInfo ReadInfo(const BagFile& bag, const std::string& topic,
                        std::vector<std::string>* warnings) {
   const auto read = [&](int i) { return bag.Parse(topic, i, ParseRosCameraInfo); };
@@ -41,16 +48,21 @@ RosCameraInfo ReadInfo(const BagFile& bag, const std::string& topic,
   int first = 0;
   RosCameraInfo info = read(first);
   while (!IsCalibrated(info) && first < last) info = read(++first);
-  const int middle = (first + last) / 2;
-  const RosCameraInfo at_middle = read(middle), at_last = read(last);
-  if (AreEqual(info, at_middle) && AreEqual(info, at_last)) return info;
-  const bool is_last = AreEqual(at_middle, at_last);
-  const int used = is_last ? last : first;
-  const int other = is_last ? first : (AreEqual(info, at_middle) ? last : middle);
-  warnings->push_back(bag.NameOf(topic, other) + " describes another camera than " +
-                      bag.NameOf(topic, used) +
+  std::vector<std::pair<int, RosCameraInfo>> others;
+  for (const int i : std::set<int>{(first + last) / 2, last}) {
+    try {
+      const RosCameraInfo later = read(i);
+      if (IsCalibrated(later) && !AreEqual(later, info)) others.emplace_back(i, later);
+    } catch (const std::runtime_error& error) {
+      warnings->push_back(error.what());
+    }
+  }
+  if (others.empty()) return info;
+  const bool is_later = others.size() == 2 && AreEqual(others[0].second, others[1].second);
+  const std::string names[] = {bag.NameOf(topic, first), bag.NameOf(topic, others.back().first)};
+  warnings->push_back(names[!is_later] + " describes another camera than " + names[is_later] +
                       ", which is used: poses of images by the other one are wrong");
-  return is_last ? at_last : info;
+  return is_later ? others.back().second : info;
 }
 
 }  // namespace

@@ -242,7 +242,7 @@ std::optional<Calibration> CalibrationFrom(const RosCameraInfo& info, bool is_re
   if (!lens) {
     *problem = "the lens model " + info.distortion_model + " with " +
                std::to_string(info.d.size()) +
-               " coefficients is none of plumb_bob (5 coefficients other than 0), "
+               " coefficients is none of plumb_bob (at most 5 coefficients that are not 0), "
                "rational_polynomial (8) and equidistant (4)";
     return std::nullopt;
   }

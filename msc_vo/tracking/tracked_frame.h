@@ -61,7 +61,7 @@ struct TrackedFrame {
   /// the snapshot; predicted if the pose is. std::nullopt: unknown, because the frame begins a map.
   std::optional<Rigid3> cam_from_last;
   bool is_implausible = false;     ///< the pose follows a gap, and its motion is not plausible
-  bool is_jump = false;            ///< it is the first of these, whose motion is cam_from_last
+  bool is_jump = false;            ///< it is implausible itself, not for following such a pose
   FrameMatches matches;            ///< inliers among the landmarks
   std::vector<PlaneMatch> planes;  ///< matched with those of the map
   /// Its dynamic matches and cells are those of the pose optimisation that found most of them.

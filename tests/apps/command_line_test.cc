@@ -24,6 +24,12 @@ using testing::HasSubstr;
 
 class CommandLineTest : public TemporaryFolder {};
 
+// Runs a command that ends with an option, with its value.
+CommandOutcome RunWithValue(std::vector<std::string> command, const std::string& value) {
+  command.back() += "=" + value;
+  return RunCommand(command);
+}
+
 // The names that begin the lines of a part of a help text.
 std::vector<std::string> NamesIn(const std::string& help, const std::string& part) {
   const size_t begin = help.find("\n" + part + ":\n");
@@ -104,10 +110,8 @@ TEST_F(CommandLineTest, RefusesNumbersOutOfRange) {
       {"fuse", Path("room"), Path("trajectory.txt"), "--output", Path("mesh.ply"), "--max-depth"}};
   for (const std::vector<std::string>& command : commands) {
     for (const char* value : {"-2", "nan", "inf", "1e300"}) {
-      std::vector<std::string> arguments = command;
-      arguments.back() += std::string("=") + value;
-      const CommandOutcome outcome = RunCommand(arguments);
-      EXPECT_EQ(outcome.exit_code, 2) << arguments.back() << "\n" << outcome.output;
+      const CommandOutcome outcome = RunWithValue(command, value);
+      EXPECT_EQ(outcome.exit_code, 2) << command.back() << "=" << value << "\n" << outcome.output;
       EXPECT_THAT(outcome.output, HasSubstr(command.back()));
     }
   }
@@ -115,12 +119,6 @@ TEST_F(CommandLineTest, RefusesNumbersOutOfRange) {
 }
 
 TEST_F(CommandLineTest, SaysWhichNumbersMustBeWhole) {
-  const std::vector<std::string> fuse = {"fuse", "x", "y", "--output", Path("mesh.ply")};
-  const auto fuse_with = [&fuse](const char* option) {
-    std::vector<std::string> arguments = fuse;
-    arguments.emplace_back(option);
-    return arguments;
-  };
   for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
            {"synthesize", Path("room"), "--frames"},
            {"synthesize", Path("room"), "--seed"},
@@ -133,13 +131,11 @@ TEST_F(CommandLineTest, SaysWhichNumbersMustBeWhole) {
            {"check", "x", "--images"},
            {"record", "x", Path("room"), "--max-frames"},
            {"export", "x", "tum", "y", "--every"},
-           fuse_with("--every"),
-           fuse_with("--min-observations")}) {
+           {"fuse", "x", "y", "--output", Path("mesh.ply"), "--every"},
+           {"fuse", "x", "y", "--output", Path("mesh.ply"), "--min-observations"}}) {
     for (const char* value : {"1.5", "1e16", "-1", "abc"}) {
-      std::vector<std::string> arguments = command;
-      arguments.back() += std::string("=") + value;
-      const CommandOutcome outcome = RunCommand(arguments);
-      EXPECT_EQ(outcome.exit_code, 2) << arguments.back();
+      const CommandOutcome outcome = RunWithValue(command, value);
+      EXPECT_EQ(outcome.exit_code, 2) << command.back() << "=" << value;
       EXPECT_THAT(outcome.output, LineNames(command.back(), "whole number from", value));
     }
   }

@@ -234,6 +234,24 @@ TEST_F(BagCalibrationTest, ReadsTheCameraInfoOfMostImages) {
   }
 }
 
+TEST_F(BagCalibrationTest, ReadsTheFirstCameraInfoIfLaterOnesDescribeNone) {
+  for (const bool is_damaged : {false, true}) {
+    Begin("infos.bag");
+    WriteInfo("/camera/color/camera_info", InfoIn("color"));
+    for (int i = 0; i < 3; ++i) {
+      if (is_damaged) Write("/camera/color/camera_info", "sensor_msgs/CameraInfo", "short");
+      if (!is_damaged) WriteInfo("/camera/color/camera_info", InfoIn("color", 0.0));
+    }
+    WriteColor("color");
+    WriteDepth("color");
+    const SequenceIndex index = Open();
+    ASSERT_TRUE(index.calibration);
+    EXPECT_EQ(index.calibration->camera.fx, 525.0);
+    const auto is_warning = Names("/camera/color/camera_info, message 3");
+    EXPECT_THAT(index.warnings, testing::Contains(is_warning).Times(is_damaged ? 1 : 0));
+  }
+}
+
 TEST_F(BagCalibrationTest, WarnsOfNoCameraThatTheUserGives) {
   Begin("x.bag");
   WriteCameras("color", "depth", 400.0);

@@ -11,6 +11,7 @@
 #include "msc_vo/synthetic/scene/image_disturbances.h"
 #include "msc_vo/synthetic/scene/motion_blur.h"
 #include "msc_vo/synthetic/scene/random.h"
+#include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
 
@@ -61,6 +62,15 @@ PinholeCamera DepthCameraOf(const SyntheticSequenceOptions& options) {
   return camera;
 }
 
+bool IsFocalLength(double pixels, int width) {
+  return pixels >= 0.1 * width && pixels <= 10.0 * width;
+}
+
+std::string FocalLengthError(double pixels, int width) {
+  return FormatText("must be from 0.1 to 10 image widths, %g to %d px, not %g px", 0.1 * width,
+                    10 * width, pixels);
+}
+
 // The first walk has the seed of the scene.
 uint64_t WalkSeed(const SyntheticSequenceOptions& options) {
   const uint64_t path = options.walk.path;
@@ -92,21 +102,25 @@ SyntheticSequenceOptions QuickWalk(SceneKind scene, uint64_t seed, const WalkOpt
 
 bool SyntheticSequenceOptions::IsValid(std::string* error) const {
   if (width < 32 || height < 32 || width > 8192 || height > 8192) {
-    *error = "width and height must be from 32 to 8192 pixels";
+    *error =
+        FormatText("width and height must be from 32 to 8192 pixels, not %dx%d", width, height);
   } else if (!(fps > 0.0)) {
     *error = "fps must be positive";
   } else if (!(std::abs(depth_delay) < 0.5 / fps)) {
-    *error = "depth_delay must be less than half the time between two images";
+    *error = FormatText(
+        "depth_delay must be less than %.6g s, half the time between two images, not %g s",
+        0.5 / fps, depth_delay);
   } else if (!(std::abs(readout_time) <= 1.0 / fps)) {
-    *error = "readout_time must be at most the time between two images";
-  } else if (depth_rig &&
-             !(depth_rig->focal_length >= 0.1 * width && depth_rig->focal_length <= 10.0 * width)) {
-    *error = "the focal length of the depth rig must be from 0.1 to 10 image widths";
+    *error =
+        FormatText("readout_time must be at most %.6g s, the time between two images, not %g s",
+                   1.0 / fps, readout_time);
+  } else if (depth_rig && !IsFocalLength(depth_rig->focal_length, width)) {
+    *error = "the focal length of depth_rig " + FocalLengthError(depth_rig->focal_length, width);
   } else if (depth_rig && !(depth_rig->depth_from_color.translation().norm() <= 1.0)) {
-    *error = "the offset of the depth rig must be at most 1 metre";
-  } else if (focal_length != 0.0 &&
-             !(focal_length >= 0.1 * width && focal_length <= 10.0 * width)) {
-    *error = "the focal length must be from 0.1 to 10 image widths";
+    *error = FormatText("the offset of depth_rig must be at most 1 m, not %g m",
+                        depth_rig->depth_from_color.translation().norm());
+  } else if (focal_length != 0.0 && !IsFocalLength(focal_length, width)) {
+    *error = "focal_length " + FocalLengthError(focal_length, width);
   } else if (!lens.IsZero() && readout_time != 0.0) {
     *error = "a lens needs a global shutter: give no readout_time";
   } else if (!IsValidLens(*this, error)) {
