@@ -45,7 +45,7 @@ TEST_F(DepthCameraTest, RejectsImpossibleRigs) {
   EXPECT_EQ(synthesize({"--untold"}).exit_code, 2);
   const CommandOutcome far = synthesize({"--rig=585,25,0,0"});
   EXPECT_EQ(far.exit_code, 2);
-  EXPECT_THAT(far.output, LineNames("error:", "1 metre"));
+  EXPECT_THAT(far.output, LineNames("error:", "--rig must be at most 1 m, not 25 m"));
 }
 
 }  // namespace

@@ -106,7 +106,7 @@ TEST(LensWarpTest, RejectsWhatCannotBeRendered) {
   EXPECT_THAT(error(options), Names("lens", "folds"));
   options = WideOptions();
   options.focal_length = 1.0;
-  EXPECT_THAT(error(options), Names("focal length"));
+  EXPECT_THAT(error(options), Names("focal_length", "not 1 px"));
 }
 
 }  // namespace
