@@ -43,8 +43,9 @@ void CheckOffset(const ImageLists& images, double max_difference, SequenceIndex*
   const double offset = 0.5 * (at_begin + at_end);
   index->warnings.push_back(FormatText(
       "the stamps of the depth images begin and end %.3f s %s than those of the colour images; if "
-      "the clock of the depth camera is off by that, %s it in the list of depth images",
-      std::abs(offset), offset > 0.0 ? "later" : "earlier", offset > 0.0 ? "subtract" : "add"));
+      "the clock of the depth camera is off by that, %s it in %s",
+      std::abs(offset), offset > 0.0 ? "later" : "earlier", offset > 0.0 ? "subtract" : "add",
+      index->container ? "the stamps of the depth images of a copy" : "the list of depth images"));
 }
 
 }  // namespace
@@ -76,10 +77,11 @@ void PairByTime(const ImageLists& images, double max_difference, SequenceIndex* 
   if (matches.empty() && index->num_listed > 0) {
     index->warnings.push_back(FormatText(
         "the stamps of the colour images are from %.3f to %.3f s, those of the depth images from "
-        "%.3f to %.3f s; if their clocks differ, write associations.txt with 'time colour time "
-        "depth' rows",
+        "%.3f to %.3f s; if their clocks differ, %s",
         images.color.front().stamp, images.color.back().stamp, images.depth.front().stamp,
-        images.depth.back().stamp));
+        images.depth.back().stamp,
+        index->container ? "correct the stamps in a copy"
+                         : "write associations.txt with 'time colour time depth' rows"));
   } else if (num_unpaired > 0) {
     index->warnings.push_back(
         FormatText("%zu of %zu colour images have no depth image within %.0f ms and are left out",

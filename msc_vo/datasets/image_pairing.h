@@ -21,7 +21,7 @@ double MaxPairDifference(const ImageLists& images);
 /// Pairs colour and depth images by time, see AssociateStamps(), and adds the pairs to the entries,
 /// with the stamp of the colour image. Stamps are in seconds, both lists in order of time, and
 /// `max_difference` in seconds. Adds warnings for images without a partner and for stamps of
-/// different clocks.
+/// different clocks; their advice is for lists, or, if the index has a container, for that.
 void PairByTime(const ImageLists& images, double max_difference, SequenceIndex* index);
 
 /// Pairs the images at the same position of both lists, whose stamps are in seconds, and adds the

@@ -145,6 +145,7 @@ SequenceIndex OpenOniFile(const std::string& path) {
   index.format = "oni";
   index.recorder = "recorder of OpenNI2";
   index.directory = path;
+  index.container = container;
   const ImageLists images{ListFrames(path + ":colour", &container->color()),
                           ListFrames(path + ":depth", &container->depth())};
   PairByTime(images, MaxPairDifference(images), &index);
@@ -161,7 +162,6 @@ SequenceIndex OpenOniFile(const std::string& path) {
         "not, "
         "record again with registration");
   }
-  index.container = container;
   return index;
 }
 

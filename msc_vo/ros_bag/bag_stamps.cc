@@ -5,9 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <utility>
 
-#include "msc_vo/datasets/image_pairing.h"
 #include "msc_vo/datasets/time_unit.h"
+#include "msc_vo/geometry/erase_if.h"
+#include "msc_vo/geometry/quantile.h"
+#include "msc_vo/geometry/timed_pose.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
@@ -16,63 +22,141 @@ namespace {
 
 using Times = std::vector<MessageTimes>;
 
-// The stamps of the headers that have one.
-std::vector<double> HeaderStamps(const Times& times) {
-  std::vector<double> stamps;
+// Position of the message at which one of the clocks was set back; none if it was not.
+std::optional<size_t> FindStep(const Times& times, double MessageTimes::*clock) {
+  std::vector<ListedImage> images;
   for (const MessageTimes& time : times) {
-    if (time.header != 0.0) stamps.push_back(time.header);
+    images.push_back({time.*clock, std::to_string(images.size()), "", -1});
   }
-  return stamps;
+  return FindClockStep(images);
 }
 
-std::vector<double> ReceiveTimes(const Times& times) {
-  std::vector<double> stamps;
-  for (const MessageTimes& time : times) stamps.push_back(time.receive);
-  return stamps;
+// The messages whose headers have a stamp, in the order of the times of recording. These are not
+// in order in a file that was merged from others, but if the clock of the recorder was set back,
+// the order of the file is right.
+Times StampedInOrder(Times times) {
+  const bool is_ordered = FindStep(times, &MessageTimes::receive).has_value();
+  EraseIf(&times, [](const MessageTimes& time) { return time.header == 0.0; });
+  const auto earlier = [](const MessageTimes& a, const MessageTimes& b) {
+    return a.receive < b.receive;
+  };
+  if (!is_ordered) std::stable_sort(times.begin(), times.end(), earlier);
+  return times;
 }
 
-// Largest step back in time; 0 if the stamps ascend.
-double LargestStepBack(const std::vector<double>& stamps) {
-  double largest = 0.0;
-  for (size_t i = 1; i < stamps.size(); ++i) {
-    largest = std::max(largest, stamps[i - 1] - stamps[i]);
+// Seconds by which the headers go back in time more than transport explains; 0: they do not.
+double StepBack(const Times& stamped) {
+  constexpr double kMaxDelay = 5.0;  // by which transport may change the order of messages
+  const auto back = [&](size_t i) { return stamped[i - 1].header - stamped[i].header; };
+  const std::optional<size_t> step = FindStep(stamped, &MessageTimes::header);
+  if (step) return back(*step);
+  for (size_t i = 1; i < stamped.size(); ++i) {
+    if (back(i) > kMaxDelay) return back(i);
   }
-  return largest;
+  return 0.0;
 }
 
 // Why the stamps of the headers of one topic cannot be used; empty if they can.
 std::string HeaderProblem(const Times& times) {
-  constexpr double kMaxDelay = 5.0;  // seconds by which transport may change the order of messages
-  const std::vector<double> stamps = HeaderStamps(times);
+  const Times stamped = StampedInOrder(times);
+  const std::vector<double> stamps = TimestampsOf(stamped, &MessageTimes::header);
   if (times.size() < 2) return "";
   if (2 * stamps.size() < times.size()) return "are zero";
   std::vector<double> sorted = stamps;
   std::sort(sorted.begin(), sorted.end());
   const auto num_different = std::unique(sorted.begin(), sorted.end()) - sorted.begin();
   if (2 * static_cast<size_t>(num_different) < times.size()) return "repeat";
-  const double step_back = LargestStepBack(stamps);
-  if (step_back > kMaxDelay) return FormatText("go back by %.1f s", step_back);
-  return "";
+  const double step_back = StepBack(stamped);
+  return step_back > 0.0 ? FormatText("go back by %.1f s", step_back) : "";
 }
 
-// Whether the time ranges of both topics overlap.
-bool HaveSameClock(const std::vector<double>& color, const std::vector<double>& depth) {
-  if (color.empty() || depth.empty()) return true;
-  const TimeRange a = RangeOf(color, TimeUnit::kSeconds), b = RangeOf(depth, TimeUnit::kSeconds);
-  const double tolerance =
-      MaxPairDifference(std::min(MedianInterval(color), MedianInterval(depth)));
-  return std::min(a.end, b.end) - std::max(a.begin, b.begin) >= -tolerance;
+// Tests whether messages, of which there is at least one, were recorded in order and as fast as
+// their images were taken. A converted bag may have the times of its conversion.
+bool IsRecordedLive(const Times& times) {
+  constexpr double kMaxRatio = 2.0;
+  const std::vector<double> received = TimestampsOf(times, &MessageTimes::receive);
+  if (!std::is_sorted(received.begin(), received.end())) return false;
+  const TimeRange headers = RangeOf(TimestampsOf(times, &MessageTimes::header), TimeUnit::kSeconds);
+  const double recorded = received.back() - received.front();
+  const double taken = headers.end - headers.begin;
+  return recorded > 0.0 && taken > 0.0 && recorded < kMaxRatio * taken &&
+         taken < kMaxRatio * recorded;
+}
+
+// Seconds by which the header stamp of depth is later than that of colour at the same time of
+// recording, for each colour message that has a depth message recorded near it.
+std::vector<double> DepthOffsets(const Times& color, const Times& depth, double interval) {
+  std::vector<double> offsets;
+  size_t nearest = 0;
+  for (const MessageTimes& time : color) {
+    const auto distance = [&](size_t i) { return std::abs(depth[i].receive - time.receive); };
+    while (nearest + 1 < depth.size() && distance(nearest + 1) <= distance(nearest)) ++nearest;
+    if (distance(nearest) > interval) continue;
+    offsets.push_back((depth[nearest].header - depth[nearest].receive) -
+                      (time.header - time.receive));
+  }
+  return offsets;
+}
+
+// The difference of the clocks in the headers of both topics, by the times of recording.
+struct ClockOffset {
+  double seconds = 0.0;       // by which the stamps of depth are later than those of colour
+  bool is_of_clocks = false;  // more than transport explains
+};
+
+// The largest offset in a part of the recording, as a clock may be set in the middle.
+ClockOffset FindClockOffset(const TopicTimes& times) {
+  // Compression of depth to PNG and registration by software delay images by up to 0.2 s, a full
+  // queue by its usual length of ten images. Delays scatter, the offset of two clocks does not.
+  constexpr double kMaxDelay = 0.3, kMaxIntervals = 10.0, kMaxSpreads = 3.0;
+  constexpr size_t kMaxParts = 10, kMinPerPart = 15;
+  const Times color = StampedInOrder(times.color), depth = StampedInOrder(times.depth);
+  ClockOffset largest;
+  if (color.empty() || depth.empty() || !IsRecordedLive(color) || !IsRecordedLive(depth)) {
+    return largest;
+  }
+  const double interval = std::max(MedianInterval(TimestampsOf(color, &MessageTimes::receive)),
+                                   MedianInterval(TimestampsOf(depth, &MessageTimes::receive)));
+  const std::vector<double> offsets = DepthOffsets(color, depth, interval);
+  const size_t num_parts = std::clamp<size_t>(offsets.size() / kMinPerPart, 1, kMaxParts);
+  for (size_t i = 0; i < num_parts; ++i) {
+    const std::vector<double> part(
+        offsets.begin() + static_cast<std::ptrdiff_t>(i * offsets.size() / num_parts),
+        offsets.begin() + static_cast<std::ptrdiff_t>((i + 1) * offsets.size() / num_parts));
+    const double offset = Median(part);
+    const double spread = Quantile(0.75, part) - Quantile(0.25, part);
+    const double limit = std::max({kMaxDelay, kMaxIntervals * interval, kMaxSpreads * spread});
+    const bool is_of_clocks = std::abs(offset) > limit;
+    if (std::pair(is_of_clocks, std::abs(offset)) >
+        std::pair(largest.is_of_clocks, std::abs(largest.seconds))) {
+      largest = {offset, is_of_clocks};
+    }
+  }
+  return largest;
+}
+
+std::string DescribeOffset(double seconds) {
+  return FormatText(
+      "the header stamps of the depth images are %.3f s %s than those of colour images that were "
+      "recorded at the same time",
+      std::abs(seconds), seconds > 0.0 ? "later" : "earlier");
 }
 
 // Why the times of recording are used; empty if those of the headers are.
-std::string ReasonForReceiveTimes(const TopicTimes& times) {
+std::string ReasonForReceiveTimes(const TopicTimes& times, std::vector<std::string>* warnings) {
+  constexpr double kUsualDelay = 0.1;  // seconds; of most drivers it is a few 10 ms
   const std::string color = HeaderProblem(times.color), depth = HeaderProblem(times.depth);
   if (!color.empty()) return "the header stamps of the colour images " + color;
   if (!depth.empty()) return "the header stamps of the depth images " + depth;
-  const bool differ = !HaveSameClock(HeaderStamps(times.color), HeaderStamps(times.depth)) &&
-                      HaveSameClock(ReceiveTimes(times.color), ReceiveTimes(times.depth));
-  return differ ? "the header stamps of the colour and the depth images are of different clocks"
-                : "";
+  const ClockOffset offset = FindClockOffset(times);
+  const std::string text = DescribeOffset(offset.seconds);
+  if (offset.is_of_clocks) return text + ", more than transport explains: their clocks differ";
+  if (std::abs(offset.seconds) > kUsualDelay) {
+    warnings->push_back(text +
+                        ", which is taken for a transport delay; if their clocks differ, correct "
+                        "the header stamps in a copy of the bag");
+  }
+  return "";
 }
 
 void SetStamps(const Times& times, bool use_receive_times, const char* what,
@@ -94,14 +178,28 @@ void SetStamps(const Times& times, bool use_receive_times, const char* what,
   *images = std::move(stamped);
 }
 
+// Throws if the clock of the recorder was set back.
+void RequireOneReceiveClock(const Times& times, const std::vector<ListedImage>& images) {
+  const std::optional<size_t> step = FindStep(times, &MessageTimes::receive);
+  if (!step) return;
+  throw std::runtime_error(
+      images[*step].path +
+      FormatText(
+          ": the clock of the recorder goes back by %.3f s here, into a time that has images "
+          "already, and the header stamps cannot be used; divide the bag there",
+          times[*step - 1].receive - times[*step].receive));
+}
+
 }  // namespace
 
 void StampImages(const TopicTimes& times, ImageLists* images, std::vector<std::string>* warnings) {
-  const std::string reason = ReasonForReceiveTimes(times);
+  const std::string reason = ReasonForReceiveTimes(times, warnings);
   if (!reason.empty()) {
     warnings->push_back(reason +
                         "; the times at which the messages were recorded are used, which "
                         "are later and less even");
+    RequireOneReceiveClock(times.color, images->color);
+    RequireOneReceiveClock(times.depth, images->depth);
   }
   SetStamps(times.color, !reason.empty(), "colour", &images->color, warnings);
   SetStamps(times.depth, !reason.empty(), "depth", &images->depth, warnings);
