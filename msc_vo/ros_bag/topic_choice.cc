@@ -77,10 +77,15 @@ std::vector<std::string> TopicWords(const std::string& name) {
   return words;
 }
 
+bool MayBeGray16(const ImageTopic& topic) {
+  return topic.kind == RosImageKind::kDepth && topic.encoding == "mono16" && !IsNamedDepth(topic);
+}
+
 std::vector<ImageTopic> DepthTopics(std::vector<ImageTopic> topics) {
   EraseIf(&topics, [](const ImageTopic& topic) {
     return topic.kind != RosImageKind::kDepth || IsInfrared(topic);
   });
+  if (!std::all_of(topics.begin(), topics.end(), MayBeGray16)) EraseIf(&topics, MayBeGray16);
   return topics;
 }
 
@@ -110,7 +115,8 @@ std::string DescribeTopic(const ImageTopic& topic) {
       text += "grey";
       break;
     case RosImageKind::kDepth:
-      text += IsRegistered(topic) ? "depth, registered" : "depth";
+      text += MayBeGray16(topic) ? "grey with 16 bits, or depth" : "depth";
+      if (IsRegistered(topic)) text += ", registered";
       break;
     case RosImageKind::kOther:
       text += "neither colour nor depth";

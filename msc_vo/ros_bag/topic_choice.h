@@ -32,7 +32,12 @@ struct TopicPair {
 /// "/cam_1/irImage_rect" -> cam, ir, image, rect.
 std::vector<std::string> TopicWords(const std::string& name);
 
+/// Tests whether images may be depth or those of a grey or thermal camera with 16 bits: they are
+/// mono16, in which the RealSense viewer has recorded depth, and are not named as depth.
+bool MayBeGray16(const ImageTopic& topic);
+
 /// Returns the topics that may hold depth images, without those that are named as infrared.
+/// Those that may be grey are returned only if there are no others.
 std::vector<ImageTopic> DepthTopics(std::vector<ImageTopic> topics);
 
 /// Returns the topics that may hold colour images, without those that are named as infrared.

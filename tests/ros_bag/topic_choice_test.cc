@@ -112,6 +112,18 @@ TEST(TopicChoice, RegisteredAndRectifiedAreWholeWords) {
   EXPECT_FALSE(is_rectified("/direct/rectangle_detector/unrectified"));
 }
 
+TEST(TopicChoice, TakesMono16ForDepthOnlyIfItIsNamedSoOrAlone) {
+  const ImageTopic color = ColorTopic("/rgb", "rgb");
+  const auto mono16 = [](const std::string& name) {
+    return ImageTopic{name, RosImageKind::kDepth, false, "mono16", "rgb"};
+  };
+  EXPECT_EQ(Best({color, mono16("/camera/image_raw"), DepthTopic("/d", "other")}).second, "/d");
+  EXPECT_EQ(Best({color, mono16("/camera/depth/image"), DepthTopic("/d", "other")}).second,
+            "/camera/depth/image");
+  EXPECT_EQ(Best({color, mono16("/camera/image_raw")}).second, "/camera/image_raw");
+  EXPECT_EQ(DescribeTopic(mono16("/x")), "/x (grey with 16 bits, or depth)");
+}
+
 TEST(TopicChoice, DescribesTopics) {
   EXPECT_EQ(DescribeTopic(ColorTopic("/cam_2/depth/preview")),
             "/cam_2/depth/preview (colour, named as depth)");
