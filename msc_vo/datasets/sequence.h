@@ -48,6 +48,12 @@ struct ClippedDepth {
   double farthest_ratio = 0.0;
 };
 
+/// What the source does not say of its cameras, one sentence each; empty: nothing.
+struct CameraWarnings {
+  std::string color;
+  std::string depth;
+};
+
 /// The contents of a sequence folder or of another source of images; images are not decoded.
 struct SequenceIndex {
   std::string format;                  ///< name of the layout, "tum"
@@ -84,8 +90,7 @@ struct SequenceIndex {
   /// which this names, "ARKit": a reference to compare with, whose errors are not known.
   std::string reference;
   std::vector<std::string> warnings;  ///< for the user, one sentence each
-  /// Those of `warnings` that do not apply if the user gives the colour or the depth camera.
-  std::string color_camera_warning, depth_camera_warning;
+  CameraWarnings camera_warnings;     ///< not among `warnings`; see ResolveCalibration()
 
   /// The sensor of the depth images according to `calibration`; kAuto: the source gives none.
   DepthSensor GivenDepthSensor() const {

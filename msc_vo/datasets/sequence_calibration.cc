@@ -17,7 +17,6 @@
 #include "msc_vo/datasets/image_size_fit.h"
 #include "msc_vo/datasets/intrinsics_file.h"
 #include "msc_vo/datasets/tum_folder.h"
-#include "msc_vo/geometry/erase_if.h"
 #include "msc_vo/image_files/image_file.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
@@ -231,13 +230,11 @@ Calibration BaseCalibration(const CameraSettings& settings, const std::string& p
   return GuessedPreset(index);
 }
 
-// Removes the warnings about cameras that the settings give.
-void RemoveAnsweredWarnings(const CameraSettings& settings, SequenceIndex* index) {
-  const auto remove = [index](const std::string& warning) {
-    EraseIf(&index->warnings, [&](const std::string& other) { return other == warning; });
-  };
-  if (IsComplete(settings)) remove(index->color_camera_warning);
-  if (!settings.depth_camera.IsEmpty()) remove(index->depth_camera_warning);
+// Adds the warnings about cameras that the settings do not give.
+void AddCameraWarnings(const CameraSettings& settings, SequenceIndex* index) {
+  const auto& [color, depth] = index->camera_warnings;
+  if (!depth.empty() && settings.depth_camera.IsEmpty()) index->warnings.push_back(depth);
+  if (!color.empty() && !IsComplete(settings)) index->warnings.push_back(color);
 }
 
 ImageSize ImageSizeOf(const SequenceIndex& index, const SequenceEntry& entry, ImageKind kind) {
@@ -308,7 +305,7 @@ ImageSize FirstImageSize(const SequenceIndex& index, ImageKind kind) {
 
 Calibration ResolveCalibration(const CameraSettings& settings, const std::string& preset,
                                SequenceIndex* index) {
-  RemoveAnsweredWarnings(settings, index);
+  AddCameraWarnings(settings, index);
   Calibration calibration = BaseCalibration(settings, preset, index);
   if (index->depth_scale) calibration.depth_scale = *index->depth_scale;
   Apply(settings, &calibration);

@@ -16,7 +16,8 @@ namespace msc_vo {
 /// the only source. A missing image size is taken from the first image, and the calibration is
 /// fitted to the sizes of the images, see FitToImageSizes(). A guessed preset provides no readout
 /// time, because the name of a folder does not identify the shutter. Adds warnings for the user to
-/// `index->warnings`. Throws std::runtime_error, listing the alternatives, if the calibration is
+/// `index->warnings`, among them `index->camera_warnings` about cameras that `settings` does not
+/// give. Throws std::runtime_error, listing the alternatives, if the calibration is
 /// incomplete; std::invalid_argument on an unknown preset.
 Calibration ResolveCalibration(const CameraSettings& settings, const std::string& preset,
                                SequenceIndex* index);

@@ -114,7 +114,7 @@ std::optional<DepthCamera> ReadDepthCamera(const BagFile& bag, const CameraInfos
 }  // namespace
 
 std::optional<Calibration> ReadCalibration(const BagFile& bag, const CameraInfos& infos,
-                                           const TopicPair& topics, CalibrationWarnings* warnings) {
+                                           const TopicPair& topics, CameraWarnings* warnings) {
   std::string problem, problem_of_depth;
   std::optional<Calibration> color = infos.Find(topics.color, &problem);
   if (color) {

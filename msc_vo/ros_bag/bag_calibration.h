@@ -7,17 +7,12 @@
 #include <string>
 
 #include "msc_vo/datasets/calibration.h"
+#include "msc_vo/datasets/sequence.h"
 #include "msc_vo/ros_bag/bag_file.h"
 #include "msc_vo/ros_bag/camera_infos.h"
 #include "msc_vo/ros_bag/topic_choice.h"
 
 namespace msc_vo {
-
-/// What is not known of the cameras of a bag, one sentence each; empty: nothing.
-struct CalibrationWarnings {
-  std::string color;
-  std::string depth;
-};
 
 /// Returns the calibration of the images of two topics; none if the bag does not have it.
 ///
@@ -27,6 +22,6 @@ struct CalibrationWarnings {
 /// of a RealSense camera or of tf; there is a warning if it is not known, in which case the depth
 /// camera is taken for one at the place of the colour camera.
 std::optional<Calibration> ReadCalibration(const BagFile& bag, const CameraInfos& infos,
-                                           const TopicPair& topics, CalibrationWarnings* warnings);
+                                           const TopicPair& topics, CameraWarnings* warnings);
 
 }  // namespace msc_vo

@@ -3,6 +3,7 @@
 
 #include "msc_vo/ros_bag/bag_sequence.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 
@@ -18,6 +19,7 @@
 #include "msc_vo/ros_bag/topic_choice.h"
 #include "msc_vo/text/ending.h"
 #include "msc_vo/text/files.h"
+#include "msc_vo/text/format_text.h"
 #include "msc_vo/text/text_file.h"
 
 namespace msc_vo {
@@ -51,10 +53,10 @@ class BagContainer : public ImageContainer {
   ImageTopic depth_;
 };
 
-// A topic with images and what its first message holds.
-ImageTopic ReadTopic(const BagFile& bag, const BagTopic& topic) {
+// A topic with images and what message i holds.
+ImageTopic ReadTopic(const BagFile& bag, const BagTopic& topic, int i) {
   ImageTopic images{topic.name, RosImageKind::kOther, topic.type == kCompressedType};
-  bag.Parse(topic.name, 0, [&](std::string_view bytes, RosSerialization form) {
+  bag.Parse(topic.name, i, [&](std::string_view bytes, RosSerialization form) {
     if (images.is_compressed) {
       const RosCompressedImage image = ParseRosCompressedImage(bytes, form);
       images.kind = KindOfCompressed(image);
@@ -72,7 +74,20 @@ ImageTopic ReadTopic(const BagFile& bag, const BagTopic& topic) {
   return images;
 }
 
-// All topics with images and what their first message holds.
+// The same of the first message that can be read.
+ImageTopic ReadTopic(const BagFile& bag, const BagTopic& topic) {
+  constexpr int kMaxTries = 10;
+  const int last = std::min(bag.NumMessages(topic.name), kMaxTries) - 1;
+  for (int i = 0; i < last; ++i) {
+    try {
+      return ReadTopic(bag, topic, i);
+    } catch (const std::runtime_error&) {  // counted by ListImages()
+    }
+  }
+  return ReadTopic(bag, topic, last);
+}
+
+// All topics with images and what their messages hold.
 std::vector<ImageTopic> FindImageTopics(const BagFile& bag, const CameraInfos& infos,
                                         std::vector<std::string>* warnings) {
   std::vector<ImageTopic> topics;
@@ -108,7 +123,8 @@ std::string OptionOf(const std::string& what) {
 // The topic that the user names, or else all that fit.
 std::vector<ImageTopic> Candidates(const std::string& path, const std::vector<ImageTopic>& all,
                                    const std::vector<ImageTopic>& fitting, const std::string& name,
-                                   const std::string& what) {
+                                   const std::string& what,
+                                   const std::vector<std::string>& warnings) {
   const std::string option = OptionOf(what);
   if (!name.empty()) {
     for (const ImageTopic& topic : all) {
@@ -118,9 +134,13 @@ std::vector<ImageTopic> Candidates(const std::string& path, const std::vector<Im
                              "); topics with images: " + Describe(all));
   }
   if (fitting.empty()) {
-    throw std::runtime_error(path + ": no topic with " + what + " images found; topics with " +
-                             "images: " + Describe(all) +
-                             (all.empty() ? "" : "; " + option + " names one"));
+    std::string message = path + ": no topic with " + what +
+                          " images found; topics with images: " + Describe(all) +
+                          "; colour has 8 bits per channel, depth is 16UC1, 32FC1 or "
+                          "compressedDepth" +
+                          (all.empty() ? "" : "; " + option + " names one");
+    for (const std::string& warning : warnings) message += "\n" + warning;
+    throw std::runtime_error(message);
   }
   return fitting;
 }
@@ -137,25 +157,42 @@ void DescribeChoice(const ImageTopic& chosen, const std::vector<ImageTopic>& can
 TopicPair ChooseTopics(const std::string& path, const std::vector<ImageTopic>& all,
                        const BagTopics& named, std::vector<std::string>* warnings) {
   const std::vector<ImageTopic> depths =
-      Candidates(path, all, DepthTopics(all), named.depth, "depth");
+      Candidates(path, all, DepthTopics(all), named.depth, "depth", *warnings);
   const std::vector<ImageTopic> colors =
-      Candidates(path, all, ColorTopics(all), named.color, "colour");
+      Candidates(path, all, ColorTopics(all), named.color, "colour", *warnings);
   TopicPair pair = BestPair(colors, depths);
+  if (MayBeGray16(pair.depth) && named.depth.empty()) {
+    warnings->push_back(DescribeTopic(pair.depth) + " is taken for depth in millimetres, because " +
+                        "there is no other depth; --depth-topic names another one");
+  }
   DescribeChoice(pair.depth, depths, "depth", warnings);
   DescribeChoice(pair.color, colors, "colour", warnings);
   return pair;
 }
 
-// Names all messages of a topic and reads their times, in the order of recording.
-std::vector<MessageTimes> ListImages(const ImageTopic& topic, const BagFile& bag,
-                                     std::vector<ListedImage>* images) {
+// Names the messages of a topic and reads their times, in the order of recording. Damaged ones,
+// of which no time is known, are left out.
+std::vector<MessageTimes> ListImages(const ImageTopic& topic, const BagFile& bag, const char* what,
+                                     std::vector<ListedImage>* images,
+                                     std::vector<std::string>* warnings) {
   std::vector<MessageTimes> times;
   const int count = bag.NumMessages(topic.name);
+  std::string first_error;
   for (int i = 0; i < count; ++i) {
-    images->push_back({0.0, bag.NameOf(topic.name, i), "", i});
-    times.push_back(
-        {bag.Parse(topic.name, i, ParseRosHeader).stamp, bag.ReceiveTime(topic.name, i)});
+    try {
+      const double stamp = bag.Parse(topic.name, i, ParseRosHeader).stamp;
+      times.push_back({stamp, bag.ReceiveTime(topic.name, i)});
+      images->push_back({0.0, bag.NameOf(topic.name, i), "", i});
+    } catch (const std::runtime_error& error) {
+      if (first_error.empty()) first_error = error.what();
+    }
   }
+  const int num_damaged = count - static_cast<int>(times.size());
+  if (num_damaged == 0) return times;
+  const std::string problem =
+      FormatText("%d of %d %s images cannot be read", num_damaged, count, what);
+  if (2 * num_damaged > count) throw std::runtime_error(problem + "; the first: " + first_error);
+  warnings->push_back(problem + " and are left out; the first: " + first_error);
   return times;
 }
 
@@ -167,6 +204,18 @@ void ChooseCamera(SequenceIndex* index) {
                             " is not used, because the name of the file suggests the camera " +
                             index->preset);
   index->calibration.reset();
+}
+
+// Whether depth is in metres, by the first image that can be read.
+bool HasMetres(const SequenceIndex& index) {
+  for (const SequenceEntry& entry : index.entries) {
+    try {
+      const StoredImage image = index.container->ReadDepth(entry.depth_index);
+      return image.bytes.empty() && image.pixels.type() == CV_32FC1;
+    } catch (const std::runtime_error&) {  // reported when its frame is decoded
+    }
+  }
+  return false;
 }
 
 double DepthScaleOf(const BagFile& bag, const std::string& topic,
@@ -212,23 +261,16 @@ SequenceIndex OpenBag(const std::string& given_path, const BagTopics& topics) {
   const auto [color, depth] = ChooseTopics(path, all, topics, &index.warnings);
   ImageLists images;
   TopicTimes times;
-  times.color = ListImages(color, *bag, &images.color);
-  times.depth = ListImages(depth, *bag, &images.depth);
+  times.color = ListImages(color, *bag, "colour", &images.color, &index.warnings);
+  times.depth = ListImages(depth, *bag, "depth", &images.depth, &index.warnings);
   StampImages(times, &images, &index.warnings);
+  index.container = std::make_shared<BagContainer>(bag, color, depth);
   PairByTime(images, MaxPairDifference(images), &index);
   OrderEntries(&index);
   RequireMostImages(index, path + " (" + color.name + ", " + depth.name + ")");
-  index.container = std::make_shared<BagContainer>(bag, color, depth);
-  const StoredImage first = index.container->ReadDepth(index.entries.front().depth_index);
-  const bool is_metres = first.bytes.empty() && first.pixels.type() == CV_32FC1;
-  index.depth_scale = is_metres ? kUnitsOfMetres : DepthScaleOf(*bag, depth.name, &index.warnings);
-  CalibrationWarnings warnings;
-  index.calibration = ReadCalibration(*bag, infos, {color, depth}, &warnings);
-  index.depth_camera_warning = warnings.depth;
-  index.color_camera_warning = warnings.color;
-  for (const std::string& warning : {warnings.depth, warnings.color}) {
-    if (!warning.empty()) index.warnings.push_back(warning);
-  }
+  index.depth_scale =
+      HasMetres(index) ? kUnitsOfMetres : DepthScaleOf(*bag, depth.name, &index.warnings);
+  index.calibration = ReadCalibration(*bag, infos, {color, depth}, &index.camera_warnings);
   ChooseCamera(&index);
   ReadGroundTruth(path, &index);
   Log().info("bag {}: colour {}, depth {}", path, color.name, depth.name);

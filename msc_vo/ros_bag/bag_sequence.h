@@ -22,7 +22,9 @@ struct BagTopics {
 /// compressedDepth. The calibration is that of ReadCalibration(), unless the name of the file
 /// suggests a camera preset; recordings of the RealSense viewer give the units of depth too. A
 /// file NAME-groundtruth.txt beside the bag is the ground truth, see BagName(). Colour and depth
-/// are paired as PairByTime() does. Throws std::runtime_error naming the file and the fix.
+/// are paired as PairByTime() does. Messages whose header cannot be read are left out, with a
+/// warning, unless they are more than half of a topic. Throws std::runtime_error naming the file
+/// and the fix.
 SequenceIndex OpenBag(const std::string& path, const BagTopics& topics = {});
 
 }  // namespace msc_vo

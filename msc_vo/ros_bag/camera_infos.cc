@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <tuple>
@@ -40,14 +41,25 @@ bool AreEqual(const RosCameraInfo& a, const RosCameraInfo& b) {
 }
 
 // The first CameraInfo of a topic that is calibrated, unless those in the middle and at the end
-// agree on another camera. `warnings` gets one if they differ or are damaged.
+// agree on another camera. `warnings` gets one if they differ or are damaged. Throws
+// std::runtime_error if all messages are damaged.
 RosCameraInfo ReadInfo(const BagFile& bag, const std::string& topic,
                        std::vector<std::string>* warnings) {
   const auto read = [&](int i) { return bag.Parse(topic, i, ParseRosCameraInfo); };
   const int last = bag.NumMessages(topic) - 1;
-  int first = 0;
-  RosCameraInfo info = read(first);
-  while (!IsCalibrated(info) && first < last) info = read(++first);
+  int first = -1;
+  std::optional<RosCameraInfo> found;
+  std::string error_before;
+  while ((!found || !IsCalibrated(*found)) && first < last) {
+    try {
+      found = read(++first);
+    } catch (const std::runtime_error& error) {
+      if (error_before.empty()) error_before = error.what();
+    }
+  }
+  if (!found) throw std::runtime_error(error_before);
+  if (!error_before.empty()) warnings->push_back(error_before);
+  const RosCameraInfo& info = *found;
   std::vector<std::pair<int, RosCameraInfo>> others;
   for (const int i : std::set<int>{(first + last) / 2, last}) {
     try {

@@ -14,6 +14,7 @@
 #include "msc_vo/ros_bag/bag_formats.h"
 #include "msc_vo/ros_bag/decompression.h"
 #include "msc_vo/ros_bag/topic_messages.h"
+#include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
@@ -29,6 +30,9 @@ struct FinalizeStatement {
 using Database = std::unique_ptr<sqlite3, CloseDatabase>;
 using Statement = std::unique_ptr<sqlite3_stmt, FinalizeStatement>;
 
+constexpr char kRecover[] =
+    "; 'sqlite3 FILE .recover | sqlite3 COPY.db3' saves what is left of a damaged file in a copy";
+
 void Check(sqlite3* database, bool is_good) {
   if (!is_good) throw std::runtime_error(sqlite3_errmsg(database));
 }
@@ -42,18 +46,37 @@ std::string UriOf(const std::string& file) {
   return uri;
 }
 
+// Tests whether a file is shorter than its header says (sqlite.org/fileformat.html).
+bool IsCutOff(const std::string& file) {
+  constexpr size_t kPageSizeAt = 16, kNumPagesAt = 28, kHeader = 32;
+  const std::string header = ReadBeginning(file, kHeader);
+  if (header.size() < kHeader) return false;
+  const auto read = [&](size_t at, size_t num_bytes) {  // the most significant byte is the first
+    uint64_t value = 0;
+    for (size_t i = at; i < at + num_bytes; ++i) {
+      value = (value << 8) | static_cast<uint8_t>(header[i]);
+    }
+    return value;
+  };
+  return std::filesystem::file_size(file) < read(kPageSizeAt, 2) * read(kNumPagesAt, 4);
+}
+
 Database Open(const std::string& file) {
   // A recorder that was killed may have left a log beside the file, which SQLite takes into
   // account. Without one, nothing is written beside the file.
   std::error_code missing;
   const auto log_bytes = std::filesystem::file_size(file + "-wal", missing);
-  const std::string mode = !missing && log_bytes > 0 ? "?mode=ro" : "?immutable=1";
+  const bool has_log = !missing && log_bytes > 0;
+  const std::string mode = has_log ? "?mode=ro" : "?immutable=1";
   sqlite3* opened = nullptr;
   const int result = sqlite3_open_v2((UriOf(file) + mode).c_str(), &opened,
                                      SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
   Database database(opened);
   Check(opened, result == SQLITE_OK);
-  sqlite3_db_config(opened, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+  // SQLite reads files that were cut off only with this flag; nothing is written with it either.
+  const bool is_cut_off = !has_log && IsCutOff(file);
+  sqlite3_db_config(
+      opened, is_cut_off ? SQLITE_DBCONFIG_WRITABLE_SCHEMA : SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
   sqlite3_exec(opened, "PRAGMA trusted_schema = OFF", nullptr, nullptr, nullptr);
   sqlite3_exec(opened, "PRAGMA cell_size_check = ON", nullptr, nullptr, nullptr);
   return database;
@@ -91,14 +114,8 @@ class Db3Bag : public BagFile {
           {Bytes(rows.get(), 1), WithoutMsg(Bytes(rows.get(), 2)), RosSerialization::kCdr});
     }
     SetTopics(std::move(topics));
-    const Statement times = Select("SELECT id, topic_id, timestamp FROM messages ORDER BY id");
-    while (Step(database_.get(), times.get())) {
-      const auto name = names.find(sqlite3_column_int64(times.get(), 1));
-      if (name == names.end()) continue;
-      messages_.Add(name->second,
-                    {sqlite3_column_int64(times.get(), 0), sqlite3_column_int64(times.get(), 2)});
-    }
     data_ = Select("SELECT data FROM messages WHERE id = ?");
+    ListMessages(names);
   }
 
  private:
@@ -106,6 +123,23 @@ class Db3Bag : public BagFile {
     int64_t id;
     int64_t time;  // nanoseconds
   };
+
+  // Of a file that was cut off, lists the messages before the first page that is missing.
+  void ListMessages(const std::map<int64_t, std::string>& names) {
+    const Statement times = Select("SELECT id, topic_id, timestamp FROM messages ORDER BY id");
+    bool has_messages = false;
+    try {
+      for (; Step(database_.get(), times.get()); has_messages = true) {
+        const auto name = names.find(sqlite3_column_int64(times.get(), 1));
+        if (name == names.end()) continue;
+        messages_.Add(name->second,
+                      {sqlite3_column_int64(times.get(), 0), sqlite3_column_int64(times.get(), 2)});
+      }
+    } catch (const std::runtime_error& error) {
+      if (!has_messages) throw;
+      Warn(path() + ": " + error.what() + "; the messages before the damage are read" + kRecover);
+    }
+  }
 
   Statement Select(const std::string& sql) const { return Prepare(database_.get(), sql); }
 
@@ -131,7 +165,8 @@ std::unique_ptr<BagFile> OpenDb3Bag(const std::string& path, const std::string& 
   try {
     return std::make_unique<Db3Bag>(path, file);
   } catch (const std::runtime_error& error) {
-    throw std::runtime_error(path + ": cannot be read as a bag of ROS 2: " + error.what());
+    throw std::runtime_error(path + ": cannot be read as a bag of ROS 2: " + error.what() +
+                             kRecover);
   }
 }
 

@@ -3,6 +3,8 @@
 
 #include "msc_vo/ros_bag/frame_tree.h"
 
+#include <stdexcept>
+
 #include "msc_vo/text/ending.h"
 
 namespace msc_vo {
@@ -15,14 +17,18 @@ bool AreEqual(const Rigid3& a, const Rigid3& b) {
          a.rotation().angularDistance(b.rotation()) <= kTolerance;
 }
 
-void AddTopics(const BagFile& bag, bool are_static, FrameTree* tree) {
+// Adds the transforms of all messages. `error` gets that of the first damaged one.
+void AddTopics(const BagFile& bag, bool are_static, FrameTree* tree, std::string* error) {
   for (const BagTopic& topic : bag.topics()) {
     if (topic.type != "tf2_msgs/TFMessage" && topic.type != "tf/tfMessage") continue;
     if (HasEnding(topic.name, "tf_static") != are_static) continue;
     const int count = bag.NumMessages(topic.name);
     for (int i = 0; i < count; ++i) {
-      for (const RosFrameTransform& transform : bag.Parse(topic.name, i, ParseRosFrameTransforms)) {
-        tree->Add(transform);
+      try {
+        const auto transforms = bag.Parse(topic.name, i, ParseRosFrameTransforms);
+        for (const RosFrameTransform& transform : transforms) tree->Add(transform);
+      } catch (const std::runtime_error& damage) {
+        if (error->empty()) *error = damage.what();
       }
     }
   }
@@ -62,11 +68,14 @@ std::optional<Rigid3> FrameTree::Find(const std::string& target, const std::stri
 std::optional<Rigid3> FindFixedTransform(const BagFile& bag, const std::string& target,
                                          const std::string& source) {
   FrameTree tree;
-  AddTopics(bag, true, &tree);
-  const std::optional<Rigid3> transform = tree.Find(target, source);
-  if (transform) return transform;
-  AddTopics(bag, false, &tree);
-  return tree.Find(target, source);
+  std::string error;
+  for (const bool are_static : {true, false}) {
+    AddTopics(bag, are_static, &tree, &error);
+    const std::optional<Rigid3> transform = tree.Find(target, source);
+    if (transform) return transform;
+  }
+  if (!error.empty()) throw std::runtime_error(error);
+  return std::nullopt;
 }
 
 }  // namespace msc_vo

@@ -10,10 +10,13 @@
 #include "msc_vo/ros_bag/mcap_file.h"
 #include "msc_vo/ros_bag/ros_message.h"
 #include "msc_vo/ros_bag/topic_messages.h"
+#include "msc_vo/text/format_text.h"
 
 namespace msc_vo {
 
 namespace {
+
+constexpr char kRecover[] = "; 'mcap recover' repairs a copy of a damaged file";
 
 // Others are protobuf, JSON and so on.
 bool IsOfRos(const McapChannel& channel) {
@@ -42,6 +45,12 @@ class McapBag : public BagFile {
         messages_.Add(own.name, message);
       }
     }
+    if (file_.num_damaged_chunks() > 0) {
+      Warn(path +
+           FormatText(": %d of %d chunks are damaged; their messages are left out",
+                      file_.num_damaged_chunks(), file_.num_chunks()) +
+           kRecover);
+    }
     if (file_.is_cut_off()) {
       Warn(path + ": the end of the recording is missing; it is read as far as it goes");
     }
@@ -66,8 +75,7 @@ std::unique_ptr<BagFile> OpenMcapBag(const std::string& path, const std::string&
   try {
     return std::make_unique<McapBag>(path, file);
   } catch (const std::runtime_error& error) {
-    throw std::runtime_error(path + ": cannot be read as an MCAP file: " + error.what() +
-                             "; 'mcap recover' repairs a copy of a damaged file");
+    throw std::runtime_error(path + ": cannot be read as an MCAP file: " + error.what() + kRecover);
   }
 }
 

@@ -158,10 +158,14 @@ void McapFile::ReadUnindexedChunks() {
       with_unknown_channels.insert(message.chunk);
     }
   }
-  for (int i = 0; i < static_cast<int>(chunks_.size()); ++i) {
+  for (int i = 0; i < num_chunks(); ++i) {
     const bool is_indexed = chunks_[static_cast<size_t>(i)].is_indexed;
     if (is_indexed && with_unknown_channels.count(i) == 0) continue;
-    GoThroughChunk(i, !is_indexed);
+    try {
+      GoThroughChunk(i, !is_indexed);
+    } catch (const std::runtime_error&) {
+      if (++num_damaged_chunks_ == num_chunks()) throw;
+    }
   }
 }
 

@@ -35,8 +35,8 @@ struct McapMessage {
 /// there are bytes. Not thread-safe.
 class McapFile {
  public:
-  /// Throws std::runtime_error that says what is wrong if the file is damaged or compressed in an
-  /// unknown way.
+  /// Throws std::runtime_error that says what is wrong if the file or each of its chunks is
+  /// damaged, or they are compressed in an unknown way.
   explicit McapFile(const std::string& path);
 
   const std::map<uint16_t, McapChannel>& channels() const { return channels_; }
@@ -44,6 +44,9 @@ class McapFile {
   const std::vector<McapMessage>& messages() const { return messages_; }
   /// Whether the end of the file is missing.
   bool is_cut_off() const { return is_cut_off_; }
+  int num_chunks() const { return static_cast<int>(chunks_.size()); }
+  /// Chunks that were unpacked to list their messages and are damaged. They have no messages.
+  int num_damaged_chunks() const { return num_damaged_chunks_; }
 
   /// Returns the data of a message. Throws std::runtime_error if they are damaged.
   std::string Read(const McapMessage& message);
@@ -81,6 +84,7 @@ class McapFile {
   std::ifstream file_;
   uint64_t size_ = 0;
   bool is_cut_off_ = false;
+  int num_damaged_chunks_ = 0;
   std::map<uint16_t, std::string> schemas_;
   std::map<uint16_t, McapChannel> channels_;
   std::vector<Chunk> chunks_;

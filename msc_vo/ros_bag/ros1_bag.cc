@@ -19,6 +19,9 @@ namespace msc_vo {
 
 namespace {
 
+constexpr char kReindex[] =
+    "; if its recording or a copy was cut off, 'rosbag reindex' repairs a copy of it";
+
 std::string BytesOf(const rosbag::MessageInstance& message) {
   std::string bytes(message.size(), '\0');
   ros::serialization::OStream stream(reinterpret_cast<uint8_t*>(bytes.data()),
@@ -88,12 +91,10 @@ std::unique_ptr<BagFile> OpenRos1Bag(const std::string& path) {
     CheckFirstRecord(path);
     return std::make_unique<Ros1Bag>(path);
   } catch (const rosbag::BagUnindexedException&) {
-    throw std::runtime_error(
-        path +
-        ": the bag has no index, because its recording was cut off; repair a copy of it with "
-        "'rosbag reindex'");
+    throw std::runtime_error(path + ": the bag has no index" + kReindex);
   } catch (const std::exception& error) {
-    throw std::runtime_error(path + ": cannot be read as a bag of ROS 1: " + error.what());
+    throw std::runtime_error(path + ": cannot be read as a bag of ROS 1: " + error.what() +
+                             kReindex);
   }
 }
 

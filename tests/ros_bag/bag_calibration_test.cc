@@ -73,9 +73,15 @@ class BagCalibrationTest : public TemporaryFolder {
     bag_.reset();
     return OpenBag(Path(name_));
   }
-  void ExpectDepthCameraToTheLeft(double fx = 525.0) {
-    const SequenceIndex index = Open();
+  SequenceIndex OpenWithoutWarning() {
+    SequenceIndex index = Open();
     EXPECT_THAT(index.warnings, IsEmpty());
+    EXPECT_EQ(index.camera_warnings.color, "");
+    EXPECT_EQ(index.camera_warnings.depth, "");
+    return index;
+  }
+  void ExpectDepthCameraToTheLeft(double fx = 525.0) {
+    const SequenceIndex index = OpenWithoutWarning();
     ASSERT_TRUE(index.calibration && index.calibration->depth_camera);
     const DepthCamera& camera = *index.calibration->depth_camera;
     EXPECT_EQ(camera.camera.fx, fx);
@@ -83,22 +89,27 @@ class BagCalibrationTest : public TemporaryFolder {
     EXPECT_LT((t - Eigen::Vector3d(0.05, 0.0, 0.0)).norm(), 1e-9);
   }
   void ExpectRegistered() {
-    const SequenceIndex index = Open();
-    EXPECT_THAT(index.warnings, IsEmpty());
+    const SequenceIndex index = OpenWithoutWarning();
     ASSERT_TRUE(index.calibration);
     EXPECT_FALSE(index.calibration->depth_camera);
   }
   // `fx`: of the depth camera, which is taken for one at the place of colour; 0: none.
   void ExpectUnknownPlace(double fx) {
     const SequenceIndex index = Open();
-    EXPECT_THAT(index.warnings,
-                ElementsAre(Names(kDepthTopic, kColorTopic, "--camera-file", "/tf_static")));
+    EXPECT_THAT(index.warnings, IsEmpty());
+    EXPECT_THAT(index.camera_warnings.depth,
+                Names(kDepthTopic, kColorTopic, "--camera-file", "/tf_static"));
     ASSERT_TRUE(index.calibration);
     const std::optional<DepthCamera>& camera = index.calibration->depth_camera;
     ASSERT_EQ(camera.has_value(), fx > 0.0);
     if (!camera) return;
     EXPECT_EQ(camera->camera.fx, fx);
     EXPECT_EQ(camera->depth_from_color.translation().norm(), 0.0);
+  }
+
+  static void ExpectWarnings(SequenceIndex index, const CameraSettings& settings, size_t count) {
+    ResolveCalibration(settings, "", &index);
+    EXPECT_EQ(index.warnings.size(), count);
   }
 
  private:
@@ -212,9 +223,12 @@ TEST_F(BagCalibrationTest, WarnsOfACameraInfoOfDepthThatIsNotRegistered) {
     WriteInfo(topic + "/camera_info", InfoIn(""));
     const SequenceIndex index = Open();
     EXPECT_EQ(index.calibration->camera.fx, 525.0);
-    const auto is_warning = Names(kColorTopic, topic + "/camera_info", "--camera-file");
-    EXPECT_THAT(index.warnings,
-                testing::Contains(is_warning).Times(topic == "/camera/depth" ? 1 : 0));
+    const std::string& warning = index.camera_warnings.color;
+    if (topic == "/camera/depth_registered") {
+      EXPECT_EQ(warning, "");
+      continue;
+    }
+    EXPECT_THAT(warning, Names(kColorTopic, topic + "/camera_info", "--camera-file"));
   }
 }
 
@@ -252,26 +266,34 @@ TEST_F(BagCalibrationTest, ReadsTheFirstCameraInfoIfLaterOnesDescribeNone) {
   }
 }
 
+TEST_F(BagCalibrationTest, ReadsTheMessagesBesideDamagedOnes) {
+  Begin("first.bag");
+  Write("/camera/color/camera_info", "sensor_msgs/CameraInfo", "short");
+  WriteCameras("color", "depth");
+  Write("/tf_static", "tf2_msgs/TFMessage", "short");
+  WriteTransforms("/tf_static", kTransforms);
+  const SequenceIndex index = Open();
+  ASSERT_TRUE(index.calibration && index.calibration->depth_camera);
+  EXPECT_THAT(index.warnings, ElementsAre(Names("/camera/color/camera_info, message 0")));
+  EXPECT_EQ(index.camera_warnings.color + index.camera_warnings.depth, "");
+}
+
 TEST_F(BagCalibrationTest, WarnsOfNoCameraThatTheUserGives) {
   Begin("x.bag");
   WriteCameras("color", "depth", 400.0);
-  SequenceIndex index = Open();
-  ASSERT_EQ(index.warnings.size(), 1u);
-  ResolveCalibration(CameraSettings(), "", &index);
-  EXPECT_EQ(index.warnings.size(), 1u);
-  CameraSettings settings = SettingsOf(*index.calibration);
-  ResolveCalibration(settings, "", &index);
-  EXPECT_THAT(index.warnings, IsEmpty());
+  const SequenceIndex of_other_camera = Open();
+  ExpectWarnings(of_other_camera, CameraSettings(), 1);
+  CameraSettings settings = SettingsOf(*of_other_camera.calibration);
+  ExpectWarnings(of_other_camera, settings, 0);
 
   Begin("y.bag");
   WriteColor("");
   WriteDepth("", "/camera/depth/image");
   WriteInfo("/camera/depth/camera_info", InfoIn(""));
-  index = Open();
-  EXPECT_EQ(index.warnings.size(), 1u);
+  const SequenceIndex without_color = Open();
+  ExpectWarnings(without_color, CameraSettings(), 1);
   settings.depth_camera = DepthCameraSettings();
-  ResolveCalibration(settings, "", &index);
-  EXPECT_THAT(index.warnings, IsEmpty());
+  ExpectWarnings(without_color, settings, 0);
 }
 
 TEST_F(BagCalibrationTest, GoesOnWithoutADamagedCameraInfo) {
@@ -299,7 +321,7 @@ TEST_F(BagCalibrationTest, TakesTheCameraInfoInTheFrameOfTheImages) {
   WriteInfo("/other_camera_info", InfoIn("other"));
   const SequenceIndex index = Open();
   EXPECT_FALSE(index.calibration);
-  EXPECT_THAT(index.warnings, ElementsAre(Names(kColorTopic, "/other_camera_info", "other")));
+  EXPECT_THAT(index.camera_warnings.color, Names(kColorTopic, "/other_camera_info", "other"));
 }
 
 }  // namespace

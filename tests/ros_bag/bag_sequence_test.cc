@@ -175,6 +175,20 @@ TEST_F(BagSequenceTest, FallsBackToTheTimesOfRecording) {
       Names("20.0 s"));
 }
 
+TEST_F(BagSequenceTest, GivesAdviceForABagIfNothingIsPaired) {
+  {
+    const auto bag = WriteRos1Bag(Path("late.bag"));
+    const cv::Mat color(2, 2, CV_8UC3, cv::Scalar::all(9)), depth(2, 2, CV_16UC1, 1000);
+    for (uint32_t i = 0; i < 5; ++i) {
+      bag->Write("/c", "sensor_msgs/Image", 10.0 + i, ImageMessage(10 + i, 0, color, "bgr8"));
+      bag->Write("/d", "sensor_msgs/Image", 90.0 + i, ImageMessage(90 + i, 0, depth, "16UC1"));
+    }
+  }
+  EXPECT_THAT(MessageOf([&] { OpenBag(Path("late.bag")); }),
+              AllOf(Names("late.bag", "80.000 s later", "copy"),
+                    testing::Not(Names("associations.txt")), testing::Not(Names("list"))));
+}
+
 TEST_F(BagSequenceTest, LeavesOutMessagesWithoutStamps) {
   const SequenceIndex index = OpenStamped([](int i, bool) {
     return i < 2 ? std::pair<uint32_t, uint32_t>(0, 0)
@@ -354,11 +368,11 @@ TEST_F(BagSequenceTest, FindsTheGroundTruthOfAFolderWithASlash) {
 
 TEST_F(BagSequenceTest, GoesOnWithoutATopicThatIsDamaged) {
   auto bag = WriteDb3Bag(Path("x.db3"));
-  bag->Write("/camera/ir/image", "sensor_msgs/Image", 1.0, "short");
+  bag->Write("/other", "sensor_msgs/Image", 1.0, "short");
   WriteBag(std::move(bag), "16UC1");
   const SequenceIndex index = OpenBag(Path("x.db3"));
   EXPECT_EQ(index.entries.size(), 5u);
-  EXPECT_THAT(index.warnings, ElementsAre(Names("/camera/ir/image, message 0", "ends too early")));
+  EXPECT_THAT(index.warnings, ElementsAre(Names("/other, message 0", "ends too early")));
 }
 
 }  // namespace

@@ -153,8 +153,7 @@ TEST_F(RealSenseBagTest, SaysWhatIsMissing) {
   const SequenceIndex index = OpenBag(Path("x.bag"));
   ASSERT_TRUE(index.calibration->depth_camera);
   EXPECT_EQ(index.calibration->depth_camera->camera.fx, 20.0);
-  EXPECT_THAT(index.warnings,
-              testing::ElementsAre(Names("Color_0", "transform", "camera.depth_camera")));
+  EXPECT_THAT(index.camera_warnings.depth, Names("Color_0", "transform", "camera.depth_camera"));
 }
 
 }  // namespace
