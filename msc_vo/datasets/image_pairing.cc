@@ -41,11 +41,13 @@ void CheckOffset(const ImageLists& images, double max_difference, SequenceIndex*
   if (std::min(std::abs(at_begin), std::abs(at_end)) <= max_difference) return;
   if (std::abs(at_begin - at_end) > max_difference) return;
   const double offset = 0.5 * (at_begin + at_end);
+  const std::string advice = index->container ? "correct its stamps in a copy of the recording"
+                             : offset > 0.0   ? "subtract it in the list of depth images"
+                                              : "add it in the list of depth images";
   index->warnings.push_back(FormatText(
       "the stamps of the depth images begin and end %.3f s %s than those of the colour images; if "
-      "the clock of the depth camera is off by that, %s it in %s",
-      std::abs(offset), offset > 0.0 ? "later" : "earlier", offset > 0.0 ? "subtract" : "add",
-      index->container ? "the stamps of the depth images of a copy" : "the list of depth images"));
+      "the clock of the depth camera is off by that, %s",
+      std::abs(offset), offset > 0.0 ? "later" : "earlier", advice.c_str()));
 }
 
 }  // namespace
@@ -80,7 +82,7 @@ void PairByTime(const ImageLists& images, double max_difference, SequenceIndex* 
         "%.3f to %.3f s; if their clocks differ, %s",
         images.color.front().stamp, images.color.back().stamp, images.depth.front().stamp,
         images.depth.back().stamp,
-        index->container ? "correct the stamps in a copy"
+        index->container ? "correct the stamps in a copy of the recording"
                          : "write associations.txt with 'time colour time depth' rows"));
   } else if (num_unpaired > 0) {
     index->warnings.push_back(

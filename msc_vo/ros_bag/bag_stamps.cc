@@ -70,15 +70,14 @@ std::string HeaderProblem(const Times& times) {
   return step_back > 0.0 ? FormatText("go back by %.1f s", step_back) : "";
 }
 
-// Tests whether messages, of which there is at least one, were recorded in order and as fast as
-// their images were taken. A converted bag may have the times of its conversion.
+// Tests whether messages were recorded in order and at the rate of their images. A converted bag
+// may have the times of its conversion.
 bool IsRecordedLive(const Times& times) {
   constexpr double kMaxRatio = 2.0;
   const std::vector<double> received = TimestampsOf(times, &MessageTimes::receive);
   if (!std::is_sorted(received.begin(), received.end())) return false;
-  const TimeRange headers = RangeOf(TimestampsOf(times, &MessageTimes::header), TimeUnit::kSeconds);
-  const double recorded = received.back() - received.front();
-  const double taken = headers.end - headers.begin;
+  const double recorded = MedianInterval(received);
+  const double taken = MedianInterval(TimestampsOf(times, &MessageTimes::header));
   return recorded > 0.0 && taken > 0.0 && recorded < kMaxRatio * taken &&
          taken < kMaxRatio * recorded;
 }
@@ -112,9 +111,7 @@ ClockOffset FindClockOffset(const TopicTimes& times) {
   constexpr size_t kMaxParts = 10, kMinPerPart = 15;
   const Times color = StampedInOrder(times.color), depth = StampedInOrder(times.depth);
   ClockOffset largest;
-  if (color.empty() || depth.empty() || !IsRecordedLive(color) || !IsRecordedLive(depth)) {
-    return largest;
-  }
+  if (!IsRecordedLive(color) || !IsRecordedLive(depth)) return largest;
   const double interval = std::max(MedianInterval(TimestampsOf(color, &MessageTimes::receive)),
                                    MedianInterval(TimestampsOf(depth, &MessageTimes::receive)));
   const std::vector<double> offsets = DepthOffsets(color, depth, interval);
