@@ -116,11 +116,12 @@ std::unique_ptr<BagFile> OpenBagFile(const std::string& path) {
     return OpenRos2Bag(path);
   }
   if (begins_with("#ROSBAG V2.0"sv)) return OpenRos1Bag(path);
-  const std::string file = DescribeFile(path);
+  if (bytes.empty()) throw std::runtime_error(path + ": is empty; restore a copy, or remove it");
+  const std::string file = IsRos2File(path) ? "" : DescribeFile(path);
   throw std::runtime_error(
       file.empty() ? path +
                          ": is no bag that can be read: neither one of ROS 1 (#ROSBAG V2.0) nor "
-                         "an SQLite or MCAP file of ROS 2"
+                         "an SQLite or MCAP file of ROS 2; restore a copy"
                    : path + " " + file);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -20,8 +21,10 @@ namespace {
 // The messages of several files, one after the other.
 class SplitBag : public BagFile {
  public:
-  SplitBag(const std::string& folder, std::vector<std::unique_ptr<BagFile>> parts)
+  SplitBag(const std::string& folder, std::vector<std::unique_ptr<BagFile>> parts,
+           const std::vector<std::string>& warnings)
       : BagFile(folder), parts_(std::move(parts)) {
+    for (const std::string& warning : warnings) Warn(warning);
     std::vector<BagTopic> topics;
     for (const auto& part : parts_) {
       topics.insert(topics.end(), part->topics().begin(), part->topics().end());
@@ -108,9 +111,19 @@ std::unique_ptr<BagFile> OpenBagFolder(const std::string& folder) {
   const std::vector<std::string> names =
       HasEntry(metadata) ? FilesOfMetadata(metadata) : FilesOfFolder(folder);
   std::vector<std::unique_ptr<BagFile>> parts;
-  for (const std::string& name : names) parts.push_back(OpenBagFile(FindFile(folder, name)));
-  if (parts.size() == 1) return std::move(parts.front());
-  return std::make_unique<SplitBag>(folder, std::move(parts));
+  std::vector<std::string> warnings;
+  for (const std::string& name : names) {
+    const std::string path = FindFile(folder, name);
+    // A recorder that was killed may have begun a file.
+    std::error_code ignored;
+    if (names.size() > 1 && std::filesystem::file_size(path, ignored) == 0) {
+      warnings.push_back(path + ": is empty and is left out");
+      continue;
+    }
+    parts.push_back(OpenBagFile(path));
+  }
+  if (parts.size() == 1 && warnings.empty()) return std::move(parts.front());
+  return std::make_unique<SplitBag>(folder, std::move(parts), warnings);
 }
 
 }  // namespace msc_vo

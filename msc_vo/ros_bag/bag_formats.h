@@ -24,6 +24,7 @@ std::unique_ptr<BagFile> OpenRos2Bag(const std::string& path);
 
 /// Opens the folder of a bag of ROS 2: the files that its metadata.yaml lists, one after the other,
 /// or all of its files .db3 and .mcap in the order of their names and numbers if it has none.
+/// Empty files among others are left out, with a warning.
 /// Throws std::runtime_error, naming the file and the fix, if a file is missing or cannot be read.
 std::unique_ptr<BagFile> OpenBagFolder(const std::string& folder);
 

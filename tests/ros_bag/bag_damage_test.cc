@@ -3,6 +3,8 @@
 
 // Bags with damaged messages, and files that were cut off.
 
+#include <filesystem>
+
 #include "tests/ros_bag/bag_writer.h"
 #include "tests/ros_bag/message_bytes.h"
 #include "tests/support/message_matchers.h"
@@ -120,6 +122,22 @@ TEST_F(BagDamageTest, ReadsTheOtherChunks) {
     ASSERT_THAT(index.warnings, testing::Not(IsEmpty()));
     EXPECT_THAT(index.warnings.front(), Names(name, "1 of 6 chunks", "mcap recover"));
   }
+}
+
+TEST_F(BagDamageTest, LeavesOutEmptyFilesOfAFolder) {
+  std::filesystem::create_directory(Path("walk"));
+  WritePairs(WriteDb3Bag(Path("walk/walk_0.db3")), 9);
+  WriteText("walk/walk_1.db3", "");
+  const SequenceIndex index = OpenBag(Path("walk"));
+  EXPECT_EQ(index.entries.size(), 9u);
+  EXPECT_THAT(index.warnings, ElementsAre(Names("walk/walk_1.db3", "empty")));
+}
+
+TEST_F(BagDamageTest, DescribesFilesThatAreOnlyNamedAsBags) {
+  WriteText("empty.mcap", "");
+  EXPECT_THAT(MessageOf([&] { OpenBag(Path("empty.mcap")); }), Names("empty.mcap", "is empty"));
+  WriteText("zero.mcap", std::string(1000, '\0'));
+  EXPECT_THAT(MessageOf([&] { OpenBag(Path("zero.mcap")); }), Names("zero.mcap", "is no bag"));
 }
 
 }  // namespace
