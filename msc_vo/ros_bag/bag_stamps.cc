@@ -82,19 +82,23 @@ bool IsRecordedLive(const Times& times) {
          taken < kMaxRatio * recorded;
 }
 
-// Seconds by which the header stamp of depth is later than that of colour at the same time of
-// recording, for each colour message that has a depth message recorded near it.
-std::vector<double> DepthOffsets(const Times& color, const Times& depth, double interval) {
-  std::vector<double> offsets;
+// Seconds from the header stamps to the recording of a colour and a depth message.
+struct Delays {
+  double color;
+  double depth;
+};
+
+// The delays of each colour message that has a depth message recorded near it, with those of that.
+std::vector<Delays> DelaysOfNeighbours(const Times& color, const Times& depth, double interval) {
+  std::vector<Delays> delays;
   size_t nearest = 0;
   for (const MessageTimes& time : color) {
     const auto distance = [&](size_t i) { return std::abs(depth[i].receive - time.receive); };
     while (nearest + 1 < depth.size() && distance(nearest + 1) <= distance(nearest)) ++nearest;
     if (distance(nearest) > interval) continue;
-    offsets.push_back((depth[nearest].header - depth[nearest].receive) -
-                      (time.header - time.receive));
+    delays.push_back({time.receive - time.header, depth[nearest].receive - depth[nearest].header});
   }
-  return offsets;
+  return delays;
 }
 
 // The difference of the clocks in the headers of both topics, by the times of recording.
@@ -103,30 +107,42 @@ struct ClockOffset {
   bool is_of_clocks = false;  // more than transport explains
 };
 
-// The largest offset in a part of the recording, as a clock may be set in the middle.
-ClockOffset FindClockOffset(const TopicTimes& times) {
+constexpr double kUsualDelay = 0.1;  // seconds; of most drivers it is a few 10 ms
+
+ClockOffset OffsetOf(const std::vector<Delays>& delays, double interval) {
   // Compression of depth to PNG and registration by software delay images by up to 0.2 s, a full
   // queue by its usual length of ten images. Delays scatter, the offset of two clocks does not.
   constexpr double kMaxDelay = 0.3, kMaxIntervals = 10.0, kMaxSpreads = 3.0;
+  std::vector<double> offsets;
+  for (const Delays& delay : delays) offsets.push_back(delay.color - delay.depth);
+  const double offset = Median(offsets);
+  const double spread = Quantile(0.75, offsets) - Quantile(0.25, offsets);
+  const auto [least, most] = std::minmax(
+      {Median(TimestampsOf(delays, &Delays::color)), Median(TimestampsOf(delays, &Delays::depth))});
+  // No image is recorded before it is taken.
+  const bool is_early = least < -kUsualDelay && most >= 0.0;
+  const double limit = is_early ? kUsualDelay : std::max(kMaxDelay, kMaxIntervals * interval);
+  return {offset, std::abs(offset) > std::max(limit, kMaxSpreads * spread)};
+}
+
+// The largest offset in a part of the recording, as a clock may be set in the middle.
+ClockOffset FindClockOffset(const TopicTimes& times) {
   constexpr size_t kMaxParts = 10, kMinPerPart = 15;
   const Times color = StampedInOrder(times.color), depth = StampedInOrder(times.depth);
   ClockOffset largest;
   if (!IsRecordedLive(color) || !IsRecordedLive(depth)) return largest;
   const double interval = std::max(MedianInterval(TimestampsOf(color, &MessageTimes::receive)),
                                    MedianInterval(TimestampsOf(depth, &MessageTimes::receive)));
-  const std::vector<double> offsets = DepthOffsets(color, depth, interval);
-  const size_t num_parts = std::clamp<size_t>(offsets.size() / kMinPerPart, 1, kMaxParts);
+  const std::vector<Delays> delays = DelaysOfNeighbours(color, depth, interval);
+  const size_t num_parts = std::clamp<size_t>(delays.size() / kMinPerPart, 1, kMaxParts);
+  const auto begin_of = [&](size_t part) {
+    return delays.begin() + static_cast<std::ptrdiff_t>(part * delays.size() / num_parts);
+  };
   for (size_t i = 0; i < num_parts; ++i) {
-    const std::vector<double> part(
-        offsets.begin() + static_cast<std::ptrdiff_t>(i * offsets.size() / num_parts),
-        offsets.begin() + static_cast<std::ptrdiff_t>((i + 1) * offsets.size() / num_parts));
-    const double offset = Median(part);
-    const double spread = Quantile(0.75, part) - Quantile(0.25, part);
-    const double limit = std::max({kMaxDelay, kMaxIntervals * interval, kMaxSpreads * spread});
-    const bool is_of_clocks = std::abs(offset) > limit;
-    if (std::pair(is_of_clocks, std::abs(offset)) >
+    const ClockOffset part = OffsetOf({begin_of(i), begin_of(i + 1)}, interval);
+    if (std::pair(part.is_of_clocks, std::abs(part.seconds)) >
         std::pair(largest.is_of_clocks, std::abs(largest.seconds))) {
-      largest = {offset, is_of_clocks};
+      largest = part;
     }
   }
   return largest;
@@ -141,7 +157,6 @@ std::string DescribeOffset(double seconds) {
 
 // Why the times of recording are used; empty if those of the headers are.
 std::string ReasonForReceiveTimes(const TopicTimes& times, std::vector<std::string>* warnings) {
-  constexpr double kUsualDelay = 0.1;  // seconds; of most drivers it is a few 10 ms
   const std::string color = HeaderProblem(times.color), depth = HeaderProblem(times.depth);
   if (!color.empty()) return "the header stamps of the colour images " + color;
   if (!depth.empty()) return "the header stamps of the depth images " + depth;

@@ -92,6 +92,19 @@ TEST(BagStamps, AreTimesOfRecordingIfClocksDifferByLessThanTheRecordingLasts) {
   }
 }
 
+// An offset that transport would explain if images could be recorded before they are taken.
+TEST(BagStamps, AreTimesOfRecordingIfImagesWouldBeRecordedBeforeTheyAreTaken) {
+  TopicTimes times = {Stream(Always(0.0), Always(0.01)), Stream(Always(0.2), Always(0.01))};
+  Stamped stamped = Stamp(times);
+  ExpectClock(times, stamped, &MessageTimes::receive);
+  EXPECT_THAT(stamped.warnings, ElementsAre(Names("depth", "0.200", "later", "clocks")));
+  // Both topics have another clock than the recorder.
+  times = {Stream(Always(0.3), Always(0.21)), Stream(Always(0.3), Always(0.01))};
+  stamped = Stamp(times);
+  ExpectClock(times, stamped, &MessageTimes::header);
+  EXPECT_THAT(stamped.warnings, ElementsAre(Names("0.200", "transport")));
+}
+
 TEST(BagStamps, AreThoseOfHeadersInSpiteOfTransportDelays) {
   for (const TimeOf& delay : {Between(0.0, 0.0), Between(0.02, 0.09)}) {
     const TopicTimes times = {Stream(Always(0.0), Always(0.0)), Stream(Always(0.0), delay)};
