@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "msc_vo/map/map_validation.h"
+#include "msc_vo/mapping/far_lines.h"
 #include "msc_vo/mapping/landmark_fusion.h"
 #include "msc_vo/self_calibration/keyframe_frames.h"
 #include "msc_vo/structure/keyframe_structure.h"
@@ -95,6 +96,8 @@ void Mapper::PrepareFrame(KeyframeTask* task) {
     calibration_.CompensateMap(&submap.map);
     submap.planes.FollowFrames(submap.map);
     task->frame_ = calibration_.BringUpToDate(packet);
+    if (calibration_.IsDoubted()) return;
+    task->frame_ = MeasureFarLines(packet.matches, std::move(task->frame_));
   });
   if (!options_.frame_structure) return;
   Timed(&times.structure, [&] {

@@ -40,6 +40,15 @@ void AddIfVisible(const Viewpoint& view, const L& landmark, LocalMap* local) {
 
 }  // namespace
 
+PerKind<std::vector<LandmarkId>> IdsOf(const LocalMap& local) {
+  PerKind<std::vector<LandmarkId>> ids;
+  ForEachLandmarkKind([&](auto kind) {
+    using L = typename decltype(kind)::Landmark;
+    for (const auto& candidate : OfKind<L>(local)) ids.Of<L>().push_back(candidate.id);
+  });
+  return ids;
+}
+
 std::vector<Map::Covisible> RankObservers(const Map& map, const FrameMatches& matches) {
   ObserverCount observers(map);
   ForEachLandmarkKind([&](auto kind) {

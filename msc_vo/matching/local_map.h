@@ -15,6 +15,9 @@ struct LocalMap : ByKind<Candidates> {
   KeyframeId reference = kNoId;  ///< the keyframe that shares most landmarks with the frame
 };
 
+/// The landmarks of a local map.
+PerKind<std::vector<LandmarkId>> IdsOf(const LocalMap& local);
+
 /// The keyframes that observe the matched landmarks (inliers), most shared landmarks first.
 std::vector<Map::Covisible> RankObservers(const Map& map, const FrameMatches& matches);
 

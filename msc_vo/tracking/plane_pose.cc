@@ -117,6 +117,40 @@ std::optional<PlanePose> EstimateByPlanes(const TrackerOptions& options, const F
   return pose;
 }
 
+bool HoldByLandmarks(const TrackerOptions& options, const Frame& frame, const MapSnapshot& snapshot,
+                     const LocalMap& local, const ExpectedPose& expected,
+                     const std::vector<PoseFactor>& factors, PlanePose* pose) {
+  std::vector<PoseFactor> measured = MakePlanePoseFactors(
+      frame.planes, pose->planes, snapshot.planes, PlanesBeside::kPointsAndLines);
+  measured.insert(measured.end(), factors.begin(), factors.end());
+  std::vector<PoseFactor> with_prior = measured;
+  if (expected.free) {
+    with_prior.push_back(
+        PriorFactor({expected.cam_from_world, *expected.free}, PoseCovariance::Zero()));
+  }
+  const auto estimate = [&](const std::vector<PoseFactor>& of_frame, FramePose* estimated) {
+    estimated->summary =
+        EstimateFramePose(options.pose, frame, snapshot.map, snapshot.noise_scale, of_frame,
+                          &estimated->cam_from_world, &estimated->matches);
+    return estimated->summary.usable;
+  };
+  FramePose held{
+      pose->cam_from_world, MatchLocalMap(options, frame, local, options.local_map_radius, {}), {}};
+  if (!estimate(with_prior, &held)) return false;
+  const int num_inliers = Sum(held.summary.num_inliers);
+  if (2 * num_inliers < options.min_matches ||
+      num_inliers < options.min_inlier_ratio * Sum(SizesOf(held.matches))) {
+    return false;
+  }
+  pose->cam_from_world = held.cam_from_world;
+  pose->summary = held.summary;
+  pose->landmarks = LandmarkInliers(held.matches);
+  FramePose without_prior{held.cam_from_world, pose->landmarks, {}};
+  pose->is_determined = estimate(measured, &without_prior) &&
+                        ClassifyStatus(options, without_prior.summary) == TrackingStatus::kTracked;
+  return true;
+}
+
 bool CorrectByPlanes(const TrackerOptions& options, const Frame& frame,
                      const std::vector<PlaneMatch>& planes, const MapSnapshot& snapshot,
                      const PlanePosePrior& prior, FramePose* pose) {

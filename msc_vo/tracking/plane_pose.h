@@ -37,12 +37,13 @@ ExpectedPose ExpectPose(const Rigid3& last_from_world, const PoseCovariance& las
                         double seconds, const std::optional<Rigid3>& velocity,
                         double undetermined_seconds);
 
-/// A pose by planes, without points and lines.
+/// A pose by planes, without points and lines, unless landmarks hold what planes leave free.
 struct PlanePose {
   Rigid3 cam_from_world;
   PoseSummary summary;
   std::vector<PlaneMatch> planes;
-  bool is_determined = false;  ///< in all directions, by the planes
+  FrameMatches landmarks;      ///< inliers
+  bool is_determined = false;  ///< in all directions, by planes and landmarks
 };
 
 /// Estimates the pose of a frame by its planes and by custom `factors`; std::nullopt if no plane is
@@ -51,6 +52,14 @@ struct PlanePose {
 std::optional<PlanePose> EstimateByPlanes(const TrackerOptions& options, const Frame& frame,
                                           const MapSnapshot& snapshot, const ExpectedPose& expected,
                                           const std::vector<PoseFactor>& factors);
+
+/// Estimates a pose by planes that leave directions free again, with landmarks of `local` near it
+/// and the expected pose as a prior. Planes determine at least half of a pose, so that half of
+/// `min_matches` suffice. It is determined if it is certain without the prior, which would hold
+/// each frame at the one before. Returns false, and changes nothing, if too few landmarks agree.
+bool HoldByLandmarks(const TrackerOptions& options, const Frame& frame, const MapSnapshot& snapshot,
+                     const LocalMap& local, const ExpectedPose& expected,
+                     const std::vector<PoseFactor>& factors, PlanePose* pose);
 
 /// Corrects a pose of a frame, which the prior describes, by the matched planes. Returns false, and
 /// changes nothing, if there are none or if they give no pose.

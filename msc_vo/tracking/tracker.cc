@@ -25,16 +25,6 @@ void SetPose(const Map& map, const Rigid3& cam_from_world, KeyframeId reference,
   tracked->cam_from_reference = cam_from_world * map.CamFromWorld(reference).Inverse();
 }
 
-// The landmarks of a local map.
-PerKind<std::vector<LandmarkId>> IdsOf(const LocalMap& local) {
-  PerKind<std::vector<LandmarkId>> ids;
-  ForEachLandmarkKind([&](auto kind) {
-    using L = typename decltype(kind)::Landmark;
-    for (const auto& candidate : OfKind<L>(local)) ids.Of<L>().push_back(candidate.id);
-  });
-  return ids;
-}
-
 // The summary of the last pose optimisation, with the dynamic objects of the one that found most.
 PoseSummary WithDynamicObjects(PoseSummary last, const PoseSummary& first) {
   if (first.num_dynamic >= last.num_dynamic) {
@@ -132,6 +122,7 @@ std::optional<TrackedFrame> Tracker::TrackByPlanes(const Input& input, PlanesSpa
   tracked.frame = CompensateAgain(input, pose->cam_from_world);
   pose = estimate(*tracked.frame);
   if (!pose) return std::nullopt;
+  if (!pose->is_determined) HoldByLandmarks(input, &*pose, &tracked);
   tracked.pose = pose->summary;
   tracked.planes = pose->planes;
   SetPose(input.snapshot.map, pose->cam_from_world,
@@ -150,6 +141,19 @@ std::optional<TrackedFrame> Tracker::TrackByPlanes(const Input& input, PlanesSpa
   Follow(&tracked);
   AddJumpCovariance(input, &tracked);
   return tracked;
+}
+
+void Tracker::HoldByLandmarks(const Input& input, PlanePose* pose, TrackedFrame* tracked) const {
+  const Map& map = input.snapshot.map;
+  const LocalMap local =
+      SelectLocalMap(map, *tracked->frame, pose->cam_from_world, {},
+                     ReferenceOrNewest(map, last_.reference), options_.max_local_keyframes);
+  if (!msc_vo::HoldByLandmarks(options_, *tracked->frame, input.snapshot, local,
+                               ExpectPoseOf(input), pose_factors_, pose)) {
+    return;
+  }
+  tracked->matches = pose->landmarks;
+  tracked->visible = IdsOf(local);
 }
 
 std::shared_ptr<const Frame> Tracker::CompensateAgain(const Input& input,

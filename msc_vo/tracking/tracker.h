@@ -93,6 +93,8 @@ class Tracker {
   // Without an initial pose in the map: by the planes and the pose factors; std::nullopt if the
   // frame does not follow one with a pose, or its matched planes do not span the directions.
   std::optional<TrackedFrame> TrackByPlanes(const Input& input, PlanesSpan span);
+  // Holds a pose by planes, which leave directions free, by landmarks as well.
+  void HoldByLandmarks(const Input& input, PlanePose* pose, TrackedFrame* tracked) const;
   // The frame as the velocity compensates it that a pose yields.
   std::shared_ptr<const Frame> CompensateAgain(const Input& input,
                                                const Rigid3& cam_from_world) const;

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "tests/support/plane_features.h"
+#include "tests/support/synthetic_frames.h"
+#include "tests/support/synthetic_map.h"
 #include <gtest/gtest.h>
 
 #include "msc_vo/geometry/so3.h"
@@ -72,6 +74,53 @@ TEST_F(CorridorTest, CorrectsTheErrorOfTheLastPoseAcrossTheCorridor) {
   const PoseCovariance covariance = CameraCovariance(cam_from_world, pose.summary.covariance);
   EXPECT_LT(std::sqrt(covariance(3, 3)), 0.1);
   EXPECT_NEAR(std::sqrt(covariance(5, 5)), 1.0, 0.01);
+}
+
+// A camera that moves along the corridor, in a map of points in given depths.
+class PointsInCorridorTest : public CorridorTest {
+ protected:
+  static constexpr double kStep = 0.02;  // metres
+
+  bool Hold(int num_points, double min_depth, double max_depth) {
+    SyntheticFrames::Options options;
+    options.num_points = num_points;
+    options.num_lines = 0;
+    options.min_depth = min_depth;
+    options.max_depth = max_depth;
+    options.pixel_noise = options.inverse_depth_noise = 0.0;
+    SyntheticFrames world(options);
+    const MapPlanes planes = snapshot_.planes;
+    snapshot_ = MapOfOneKeyframe(world.MakeFrame(0, Rigid3()), Rigid3());
+    snapshot_.planes = planes;
+    Frame frame = *world.MakeFrame(1, Rigid3(Eigen::Quaterniond::Identity(), {0.0, 0.0, -kStep}));
+    frame.planes = frame_.planes;
+    const ExpectedPose expected = ExpectPose({}, IsotropicCovariance(0.001, 0.01), 0.03, {}, 0.1);
+    pose_ = *EstimateByPlanes(options_, frame, snapshot_, expected, {});
+    const LocalMap local = SelectVisibleLandmarks(snapshot_.map, frame, pose_.cam_from_world);
+    return HoldByLandmarks(options_, frame, snapshot_, local, expected, {}, &pose_);
+  }
+
+  PlanePose pose_;
+};
+
+TEST_F(PointsInCorridorTest, PointsHoldWhatPlanesLeaveFree) {
+  ASSERT_TRUE(Hold(40, 2.0, 6.0));
+  EXPECT_TRUE(pose_.is_determined);
+  EXPECT_GT(pose_.landmarks.points.size(), 20u);
+  EXPECT_NEAR(Along(pose_.cam_from_world), kStep, 0.1 * kStep);
+}
+
+// The prior alone has a sigma of 5 cm.
+TEST_F(PointsInCorridorTest, PointsTooFarAwayLeaveThePoseToThePrior) {
+  ASSERT_TRUE(Hold(40, 40.0, 60.0));
+  EXPECT_FALSE(pose_.is_determined);
+  EXPECT_LT(Along(pose_.cam_from_world), 0.05);
+}
+
+TEST_F(PointsInCorridorTest, TooFewPointsChangeNothing) {
+  EXPECT_FALSE(Hold(4, 2.0, 6.0));
+  EXPECT_TRUE(pose_.landmarks.points.empty());
+  EXPECT_LT(Along(pose_.cam_from_world), 1e-3);
 }
 
 }  // namespace
