@@ -156,11 +156,12 @@ void PathCovariances::FindPaths(const std::vector<Edge>& edges, size_t root) {
   }
 }
 
-PoseCovariance PathCovariances::Of(KeyframeId keyframe, const Rigid3& cam_from_keyframe) const {
+PoseCovariance PathCovariances::Of(KeyframeId keyframe, const Rigid3& cam_from_keyframe,
+                                   const PoseCovariance& step) const {
   const Node* node = Find(keyframe);
   const Rigid3 root_from_cam = node->root_from_cam * cam_from_keyframe.Inverse();
   PathDrift drift = node->drift;
-  drift.AddStep(node->root_from_cam, root_from_cam, PoseCovariance::Zero());
+  drift.AddStep(node->root_from_cam, root_from_cam, TransportCovariance(root_from_cam, step));
   return drift.At(root_from_cam.Inverse());
 }
 

@@ -80,8 +80,10 @@ class PathCovariances {
   PathCovariances(const Map& map, const std::vector<PoseGraphEdge>& loops, KeyframeId root);
 
   /// Covariance of the pose of a keyframe, or of a camera near it, relative to the root, as by
-  /// CameraCovariance(): in the frame of the camera. The keyframe is or was in the map.
-  PoseCovariance Of(KeyframeId keyframe, const Rigid3& cam_from_keyframe = Rigid3()) const;
+  /// CameraCovariance(): in the frame of the camera. The keyframe is or was in the map. The way
+  /// from it to the camera is a step, with the covariance `step` in the frame of the camera.
+  PoseCovariance Of(KeyframeId keyframe, const Rigid3& cam_from_keyframe = Rigid3(),
+                    const PoseCovariance& step = PoseCovariance::Zero()) const;
   /// Covariance of the pose of the root relative to a keyframe, in the frame of the root.
   PoseCovariance OfRoot(KeyframeId keyframe) const;
   /// The drift along the path from the root to a keyframe; base: the root.

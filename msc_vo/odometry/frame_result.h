@@ -98,9 +98,9 @@ struct FrameResult {
   /// (metres). std::nullopt if neither the image nor pose factors determined the pose, as in the
   /// frame that begins a world: its pose is a definition.
   std::optional<PoseCovariance> covariance;
-  /// Covariance of `cam_from_world` relative to the origin of the world, its first keyframe: that
-  /// of the map nearby, and the drift of the map between both, which closed loops reduce. Tangent
-  /// and std::nullopt as `covariance`.
+  /// Covariance of `cam_from_world` relative to the origin of the world, its first keyframe:
+  /// `covariance`, the common error of the landmarks nearby, and the drift of the map between both,
+  /// which closed loops reduce. Tangent and std::nullopt as `covariance`.
   std::optional<PoseCovariance> world_covariance;
   /// Covariance of `cam_from_odometry`: the drift of the whole path, which neither a correction of
   /// the map nor a known place reduces, and motion that was missed in gaps. Tangent (with

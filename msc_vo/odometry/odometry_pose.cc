@@ -5,6 +5,7 @@
 
 #include "msc_vo/geometry/camera_velocity.h"
 #include "msc_vo/geometry/so3.h"
+#include "msc_vo/mapping/keyframe_graph.h"
 #include "msc_vo/tracking/motion_model.h"
 #include "msc_vo/tracking/tracked_frame.h"
 
@@ -54,7 +55,9 @@ void OdometryPose::AddCovariance(const TrackedFrame& tracked) {
   PoseCovariance own = PoseCovariance::Zero();
   if (tracked.pose.usable) own = CameraCovariance(tracked.cam_from_world, tracked.pose.covariance);
   PathDrift drift = drift_;
-  drift.AddStep(odometry_from_keyframe_, odometry_from_cam, PoseCovariance::Zero());
+  // As for the pose in the world, the landmarks err together.
+  drift.AddStep(odometry_from_keyframe_, odometry_from_cam,
+                TransportCovariance(odometry_from_cam, CommonViewCovariance()));
   covariance_.reset();
   if (tracked.pose.usable) {
     covariance_ = CovarianceOfCamera(cam_from_odometry_, drift.At(cam_from_odometry_) + own);

@@ -5,6 +5,7 @@
 
 #include <map>
 
+#include "msc_vo/mapping/keyframe_graph.h"
 #include "msc_vo/tracking/tracked_frame.h"
 
 namespace msc_vo {
@@ -15,10 +16,12 @@ PathCovariances FromOrigin(const Map& map, const std::vector<PoseGraphEdge>& loo
   return {map, loops, map.KnownKeyframes().front()};
 }
 
-// Of a camera, relative to the origin, in its own frame. `camera`: relative to the map nearby.
+// Of a camera, relative to the origin, in its own frame. `camera`: relative to the map nearby. The
+// landmarks there err together, relative to the reference keyframe. That is all there is if this
+// keyframe is the origin.
 PoseCovariance WithDrift(const PathCovariances& keyframes, const ReferencedPose& pose,
                          const PoseCovariance& camera) {
-  return camera + keyframes.Of(pose.reference, pose.cam_from_reference);
+  return camera + keyframes.Of(pose.reference, pose.cam_from_reference, CommonViewCovariance());
 }
 
 }  // namespace

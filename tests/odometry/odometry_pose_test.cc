@@ -130,10 +130,12 @@ TEST_F(OdometryPoseTest, HasACovarianceThatGrowsWithThePath) {
   EXPECT_FALSE(pose_.covariance());  // a definition
   Add(TrackingStatus::kTracked, 1);
   double before = PositionSigma(pose_);
-  // Its pose, 5 mm per metre, and 0.5 % of 2.5 m times the change of the direction of view.
+  // Its pose, 2 mm for the landmarks, 5 mm per metre, and 0.5 % of 2.5 m times the change of the
+  // direction of view.
   EXPECT_NEAR(
       before,
-      std::sqrt(3.0 * (1e-6 + std::pow(0.005 * 0.051, 2) + std::pow(0.005 * 2.5 * 0.02, 2))), 1e-6);
+      std::sqrt(3.0 * (1e-6 + 4e-6 + std::pow(0.005 * 0.051, 2) + std::pow(0.005 * 2.5 * 0.02, 2))),
+      1e-6);
   for (int i = 0; i < 20; ++i) {
     Add(TrackingStatus::kTracked, 1, true);
     EXPECT_GT(PositionSigma(pose_), before) << i;
