@@ -3,6 +3,7 @@
 
 #include "msc_vo/tracking/pose_plausibility.h"
 
+#include <cmath>
 #include <utility>
 
 #include "msc_vo/geometry/so3.h"
@@ -42,8 +43,11 @@ const PoseCovariance& PosePlausibility::UpdateJumpCovariance(double timestamp,
   jump_covariance_ = TransportCovariance(cam_from_last, jump_covariance_);
   if (!IsImplausible(timestamp)) jump_covariance_.setZero();
   if (std::exchange(is_marked_, false)) {
-    const PoseCovariance of_jump = IsotropicCovariance(LogSO3(cam_from_predicted.rotation()).norm(),
-                                                       cam_from_predicted.translation().norm());
+    // The jump is the standard deviation of the three axes together.
+    const double per_axis = 1.0 / std::sqrt(3.0);
+    const PoseCovariance of_jump =
+        IsotropicCovariance(per_axis * LogSO3(cam_from_predicted.rotation()).norm(),
+                            per_axis * cam_from_predicted.translation().norm());
     if (of_jump.trace() > jump_covariance_.trace()) jump_covariance_ = of_jump;
   }
   return jump_covariance_;

@@ -41,8 +41,9 @@ class PosePlausibility {
   bool is_marked() const { return is_marked_; }
 
   /// Covariance of the camera, in its frame, to be added to that of an implausible pose: the camera
-  /// may be where it was predicted, at the largest jump of these seconds. Call it once for each
-  /// pose, after the others.
+  /// may be where it was predicted, at the largest jump of these seconds. The squared error of that
+  /// place is the expected one of six degrees of freedom. Call it once for each pose, after the
+  /// others.
   const PoseCovariance& UpdateJumpCovariance(double timestamp, const Rigid3& cam_from_last,
                                              const Rigid3& cam_from_predicted);
 

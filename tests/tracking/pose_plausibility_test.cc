@@ -3,7 +3,12 @@
 
 #include "msc_vo/tracking/pose_plausibility.h"
 
+#include <cmath>
+
+#include <Eigen/Dense>
 #include <gtest/gtest.h>
+
+#include "msc_vo/geometry/so3.h"
 
 namespace msc_vo {
 namespace {
@@ -73,22 +78,38 @@ TEST(PosePlausibility, RemembersContradictionsByDepth) {
   EXPECT_FALSE(plausibility.IsImplausible(7.1));
 }
 
+// A covariance whose standard deviations of all axes together are `angle` (radians) and `distance`
+// (metres).
+PoseCovariance OfJump(double angle, double distance) {
+  return IsotropicCovariance(angle / std::sqrt(3.0), distance / std::sqrt(3.0));
+}
+
 // The camera may be where the first implausible pose was predicted.
 TEST(PosePlausibility, KeepsTheLargestJump) {
   PosePlausibility plausibility = SlowCamera();
   const Rigid3 jump(ExpSO3({0.0, 0.9, 0.0}), {1.5, 0.0, 0.0}), rest;
   EXPECT_TRUE(plausibility.UpdateJumpCovariance(1.9, rest, jump).isZero());
   plausibility.MarkImplausible(2.0);
-  EXPECT_TRUE(
-      plausibility.UpdateJumpCovariance(2.0, jump, jump).isApprox(IsotropicCovariance(0.9, 1.5)));
+  EXPECT_TRUE(plausibility.UpdateJumpCovariance(2.0, jump, jump).isApprox(OfJump(0.9, 1.5)));
   const Rigid3 turn(ExpSO3({0.0, 0.5, 0.0}), {0.0, 0.0, 0.0});
-  EXPECT_TRUE(
-      plausibility.UpdateJumpCovariance(2.1, turn, rest).isApprox(IsotropicCovariance(0.9, 1.5)));
+  EXPECT_TRUE(plausibility.UpdateJumpCovariance(2.1, turn, rest).isApprox(OfJump(0.9, 1.5)));
   plausibility.MarkImplausible(3.0);
   const Rigid3 longer(Eigen::Quaterniond::Identity(), {0.0, 5.0, 0.0});
-  EXPECT_TRUE(
-      plausibility.UpdateJumpCovariance(3.0, rest, longer).isApprox(IsotropicCovariance(0.0, 5.0)));
+  EXPECT_TRUE(plausibility.UpdateJumpCovariance(3.0, rest, longer).isApprox(OfJump(0.0, 5.0)));
   EXPECT_TRUE(plausibility.UpdateJumpCovariance(8.1, rest, rest).isZero());
+}
+
+// The camera was not moved, and the place that was found is wrong. The squared error of the pose is
+// that which is expected of six degrees of freedom.
+TEST(PosePlausibility, CoversThePredictedPose) {
+  PosePlausibility plausibility = SlowCamera();
+  const Eigen::Vector3d turn(0.4, -1.2, 0.3), move(2.0, 0.5, -1.0);
+  plausibility.MarkImplausible(2.0);
+  const PoseCovariance covariance =
+      plausibility.UpdateJumpCovariance(2.0, Rigid3(), Rigid3(ExpSO3(turn), move));
+  Eigen::Matrix<double, 6, 1> error;
+  error << turn, move;
+  EXPECT_NEAR(error.dot(covariance.inverse() * error), 6.0, 1e-9);
 }
 
 TEST(PosePlausibility, BelievesSlowMotionsAfterRest) {
