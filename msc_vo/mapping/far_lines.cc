@@ -4,7 +4,6 @@
 #include "msc_vo/mapping/far_lines.h"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -15,6 +14,9 @@ namespace {
 // Largest distance of a line from the part of its plane that has a depth, cells of DepthRanges. At
 // the end of its range, a sensor loses walls before their ends (docs/lab/planes.md).
 constexpr int kReach = 4;
+// Sensors measure nearer surfaces, metres, unless these are such as windows, of which a line may be
+// behind the plane of the wall.
+constexpr double kMinRange = 3.0;
 // Half the width of a line in the image, where other segments may be parts of the same line,
 // pixels.
 constexpr double kHalfWidth = 3.0;
@@ -32,9 +34,10 @@ bool AreCrossing(const LineSegment2& a, const LineSegment2& b) {
   return separates(a, b) && separates(b, a);
 }
 
-// Of the farthest surface with a depth, 1/metres.
-double SmallestInverseDepth(const DepthRanges& ranges) {
-  double smallest = std::numeric_limits<double>::infinity();
+// The largest inverse depth beyond the range of the sensor, 1/metres: that of the farthest surface
+// with a depth.
+double InverseRange(const DepthRanges& ranges) {
+  double smallest = 1.0 / kMinRange;
   for (const DepthRanges::Cell& cell : ranges.cells) {
     if (cell.HasDepth()) smallest = std::min<double>(smallest, cell.min_inverse_depth);
   }
@@ -45,7 +48,7 @@ double SmallestInverseDepth(const DepthRanges& ranges) {
 class FarLines {
  public:
   explicit FarLines(const Frame& frame)
-      : frame_(frame), smallest_inverse_depth_(SmallestInverseDepth(frame.depth_ranges)) {}
+      : frame_(frame), inverse_range_(InverseRange(frame.depth_ranges)) {}
 
   // The depth of a line by the plane beside it; none if there is no plane, or one on each side.
   std::optional<LineDepth> Measure(size_t line) const {
@@ -110,7 +113,7 @@ class FarLines {
         frame_.camera.Ray(line.segment.end).transpose();
     const Eigen::Vector2d inverse_depths = rays * plane.inverse_depth;
     if (inverse_depths.minCoeff() < PlaneFeature::kMinInverseDepth ||
-        inverse_depths.maxCoeff() > smallest_inverse_depth_) {
+        inverse_depths.maxCoeff() > inverse_range_) {
       return std::nullopt;
     }
     const Eigen::Vector2d gradient(plane.inverse_depth.x() / frame_.camera.fx,
@@ -126,7 +129,7 @@ class FarLines {
   }
 
   const Frame& frame_;
-  double smallest_inverse_depth_;
+  double inverse_range_;
 };
 
 }  // namespace

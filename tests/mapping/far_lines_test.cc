@@ -90,6 +90,16 @@ TEST_F(FarLinesTest, MeasuresNoLineWithinTheRange) {
   EXPECT_FALSE(IsMeasured());
 }
 
+// A window, of which the wall is the farthest surface in the image.
+TEST_F(FarLinesTest, MeasuresNoLineNearerThanTheRangeOfAnySensor) {
+  frame_.planes = {FeatureOf(Plane({-1.0, 0.0, 0.0}, 0.4))};
+  for (DepthRanges::Cell& cell : frame_.depth_ranges.cells) {
+    cell.min_inverse_depth /= 0.4f;
+    cell.max_inverse_depth /= 0.4f;
+  }
+  EXPECT_FALSE(IsMeasured());
+}
+
 TEST_F(FarLinesTest, MeasuresNoLineBetweenTwoPlanes) {
   frame_.planes.push_back(FeatureOf(Plane({0.0, 0.0, -1.0}, 3.0)));
   SetColumn(18, 1.0 / 3.0);
