@@ -13,6 +13,7 @@
 #endif
 
 #include <opencv2/core/utility.hpp>
+#include <opencv2/core/utils/logger.hpp>
 
 #include "apps/cli/command_log.h"
 #include "apps/cli/commands.h"
@@ -59,6 +60,12 @@ void KeepFreedMemory() {
 // The odometry divides a frame into tasks itself. The threads of OpenCV spin between its small work
 // items, which costs 2 to 3 ms of processor time per frame.
 void DisableOpenCvThreads() { cv::setNumThreads(1); }
+
+// Damaged images are reported by the commands, with the names of their files.
+void SilenceOpenCv() {
+  if (std::getenv("OPENCV_LOG_LEVEL") != nullptr) return;
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+}
 
 // Throws if the first argument is neither an option nor a sub-command.
 void CheckSubcommand(const std::vector<Command>& commands, const std::string& name) {
@@ -116,6 +123,7 @@ int main(int argc, char** argv) {
   msc_vo::KeepFreedMemory();
   setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 0);  // before there are other threads
   msc_vo::DisableOpenCvThreads();
+  msc_vo::SilenceOpenCv();
   msc_vo::PrepareStandardStreams();
   try {
     const int exit_code = msc_vo::Main(argc, argv);

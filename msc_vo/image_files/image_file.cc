@@ -31,6 +31,13 @@ cv::Mat DecodeCommonKind(const std::string& bytes, int mode) {
   return {};
 }
 
+// Decodes the other kinds. Empty if the image is damaged.
+cv::Mat DecodeOtherKind(const std::string& bytes, int mode) {
+  if (!IsPng(bytes)) return DecodeWithOpenCv(bytes, mode);
+  const std::string essential = EssentialPng(bytes);
+  return essential.empty() ? cv::Mat() : DecodeWithOpenCv(essential, mode);
+}
+
 }  // namespace
 
 cv::Mat DecodeImage(const std::string& bytes, int mode) {
@@ -43,7 +50,7 @@ cv::Mat DecodeImage(const std::string& bytes, int mode) {
   }
   try {
     const cv::Mat image = DecodeCommonKind(bytes, mode);
-    return image.empty() ? DecodeWithOpenCv(bytes, mode) : image;
+    return image.empty() ? DecodeOtherKind(bytes, mode) : image;
   } catch (const cv::Exception& error) {
     // An image that does not fit into the memory is not damaged: frames must not depend on that.
     if (error.code == cv::Error::StsNoMem) throw std::bad_alloc();

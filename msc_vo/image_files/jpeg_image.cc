@@ -22,6 +22,12 @@ struct DestroyTurboJpeg {
 };
 using TurboJpeg = std::unique_ptr<std::remove_pointer_t<tjhandle>, DestroyTurboJpeg>;
 
+// Whether the last result of a decoder is more than a warning: warnings are of stray bytes and
+// unusual numbers, which some cameras write.
+bool HasFailed(tjhandle decoder, int result) {
+  return result != 0 && tjGetErrorCode(decoder) != TJERR_WARNING;
+}
+
 // Whether the last error of a decoder was lack of memory, in the words of libjpeg.
 bool HasNoMemory(tjhandle decoder) {
   return std::string(tjGetErrorStr2(decoder)).find("nsufficient memory") != std::string::npos;
@@ -34,21 +40,19 @@ cv::Mat DecodeJpeg(const std::string& bytes, JpegChannels channels) {
   const TurboJpeg decoder(tjInitDecompress());
   int width, height, subsampling, colors;
   if (decoder == nullptr) throw std::bad_alloc();
-  if (tjDecompressHeader3(decoder.get(), data, bytes.size(), &width, &height, &subsampling,
-                          &colors) != 0) {
-    return {};
-  }
+  const int header = tjDecompressHeader3(decoder.get(), data, bytes.size(), &width, &height,
+                                         &subsampling, &colors);
+  if (HasFailed(decoder.get(), header)) return {};
   if (colors == TJCS_CMYK || colors == TJCS_YCCK) return {};
   if (!IsPlausibleSize({width, height}, bytes.size())) return {};
   const bool is_gray = channels == JpegChannels::kGray || colors == TJCS_GRAY;
   cv::Mat image(height, width, is_gray ? CV_8UC1 : CV_8UC3);
-  if (tjDecompress2(decoder.get(), data, bytes.size(), image.data, width,
-                    static_cast<int>(image.step), height, is_gray ? TJPF_GRAY : TJPF_BGR, 0) != 0 &&
-      tjGetErrorCode(decoder.get()) != TJERR_WARNING) {
-    if (HasNoMemory(decoder.get())) throw std::bad_alloc();
-    return {};
-  }
-  return image;  // warnings are of stray bytes, which some cameras write
+  const int pixels =
+      tjDecompress2(decoder.get(), data, bytes.size(), image.data, width,
+                    static_cast<int>(image.step), height, is_gray ? TJPF_GRAY : TJPF_BGR, 0);
+  if (!HasFailed(decoder.get(), pixels)) return image;
+  if (HasNoMemory(decoder.get())) throw std::bad_alloc();
+  return {};
 }
 
 std::string EncodeJpeg(const cv::Mat& gray, int quality) {

@@ -28,21 +28,29 @@ uint32_t BigEndian(const char* bytes) {
 struct Chunk {
   std::string_view type;
   std::string_view data;
+  bool is_intact = false;  // its checksum matches
+
+  // Whether no image can be decoded without it, as the case of the first letter says.
+  bool IsNeeded() const {
+    constexpr char kLowerCase = 0x20;
+    return (type[0] & kLowerCase) == 0;
+  }
 };
 
 // Length, type, data and checksum of the chunk at a position, which moves behind it; none if the
-// file ends before it or its checksum does not match.
+// file ends before it, or if it is needed and its checksum does not match.
 std::optional<Chunk> NextChunk(const std::string& bytes, size_t* at) {
   constexpr size_t kNumOtherBytes = 12;
   if (bytes.size() - *at < kNumOtherBytes) return std::nullopt;
   const char* const begin = bytes.data() + *at;
   const size_t num_bytes = BigEndian(begin);
   if (bytes.size() - *at - kNumOtherBytes < num_bytes) return std::nullopt;
-  if (libdeflate_crc32(0, begin + 4, num_bytes + 4) != BigEndian(begin + 8 + num_bytes)) {
-    return std::nullopt;
-  }
+  const bool is_intact =
+      libdeflate_crc32(0, begin + 4, num_bytes + 4) == BigEndian(begin + 8 + num_bytes);
+  const Chunk chunk = {{begin + 4, 4}, {begin + 8, num_bytes}, is_intact};
+  if (!is_intact && chunk.IsNeeded()) return std::nullopt;
   *at += kNumOtherBytes + num_bytes;
-  return Chunk{{begin + 4, 4}, {begin + 8, num_bytes}};
+  return chunk;
 }
 
 struct Header {
@@ -76,9 +84,7 @@ std::string ReadData(const std::string& bytes, size_t at) {
   while (const std::optional<Chunk> chunk = NextChunk(bytes, &at)) {
     if (chunk->type == "IEND") return data;
     const bool is_data = chunk->type == "IDAT";
-    constexpr char kLowerCase = 0x20;
-    const bool is_needed = (chunk->type[0] & kLowerCase) == 0;
-    if ((is_needed && !is_data) || chunk->type == "tRNS") return "";
+    if ((chunk->IsNeeded() && !is_data) || chunk->type == "tRNS") return "";
     if (is_data) data.append(chunk->data);
   }
   return "";
@@ -126,11 +132,28 @@ void WriteRow(const uint8_t* row, int width, int type, uint8_t* out) {
   }
 }
 
+constexpr std::string_view kSignature = "\x89PNG\r\n\x1A\n";
+
 }  // namespace
 
+bool IsPng(const std::string& bytes) {
+  return bytes.compare(0, kSignature.size(), kSignature) == 0;
+}
+
+std::string EssentialPng(const std::string& bytes) {
+  size_t at = kSignature.size();
+  std::string essential(kSignature);
+  for (size_t begin = at; const std::optional<Chunk> chunk = NextChunk(bytes, &at); begin = at) {
+    const bool is_kept = chunk->IsNeeded() || (chunk->type == "tRNS" && chunk->is_intact);
+    if (is_kept) essential.append(bytes, begin, at - begin);
+    if (chunk->type == "IEND") return essential;
+  }
+  return "";
+}
+
 cv::Mat DecodePng(const std::string& bytes) {
-  size_t at = 8;  // behind the signature
-  if (bytes.compare(0, at, "\x89PNG\r\n\x1A\n") != 0) return {};
+  size_t at = kSignature.size();
+  if (!IsPng(bytes)) return {};
   const std::optional<Chunk> first = NextChunk(bytes, &at);
   const std::optional<Header> header = first ? ReadHeader(*first) : std::nullopt;
   if (!header || !IsPlausibleSize({header->width, header->height}, bytes.size())) return {};

@@ -14,4 +14,11 @@ namespace msc_vo {
 /// colour and interlacing. Returns an empty image for every other file, damaged ones included.
 cv::Mat DecodePng(const std::string& bytes);
 
+bool IsPng(const std::string& bytes);
+
+/// Returns a PNG file without the chunks that do not change its pixels. Empty if the file ends too
+/// early or the checksum of another chunk does not match. OpenCV decodes the result as it does the
+/// file, but libpng prints no warnings.
+std::string EssentialPng(const std::string& bytes);
+
 }  // namespace msc_vo

@@ -174,6 +174,45 @@ TEST(DecodeImage, GivesAnEmptyImageForDamage) {
   EXPECT_TRUE(DecodeImage("", cv::IMREAD_UNCHANGED).empty());
 }
 
+// A time without data, with a checksum that matches or not: it changes no pixel.
+std::string WithBadTime(std::string png, bool is_intact) {
+  constexpr size_t kHeaderEnd = 33;
+  const char* const checksum = is_intact ? "\xF9\x33\xDA\xCF" : "????";
+  return png.insert(kHeaderEnd, std::string(4, '\0') + "tIME" + checksum);
+}
+
+// libpng and libjpeg print warnings and errors if nobody prevents them.
+TEST(DecodeImage, PrintsNothingAboutDamage) {
+  const cv::Mat color = RandomImage(16, 12, CV_8UC3, 2);
+  const std::string png = Encode(".png", color), jpeg = Encode(".jpg", color);
+  const std::string depth = Encode(".png", RandomImage(16, 12, CV_16UC1, 2));
+  testing::internal::CaptureStderr();
+  for (const int mode : {kGray, static_cast<int>(cv::IMREAD_UNCHANGED)}) {
+    for (const std::string& whole : {png, jpeg, depth}) {
+      for (size_t i = 0; i < whole.size(); ++i) {
+        std::string damaged = whole;
+        damaged[i] = static_cast<char>(damaged[i] ^ 0x15);
+        DecodeImage(damaged, mode);
+        DecodeImage(whole.substr(0, i), mode);
+      }
+    }
+    for (const bool is_intact : {false, true}) {
+      EXPECT_TRUE(AreSame(DecodeImage(WithBadTime(png, is_intact), mode), DecodeImage(png, mode)));
+    }
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(EssentialPng, LeavesOutWhatChangesNoPixel) {
+  const std::string png = Encode(".png", RandomImage(16, 12, CV_16UC3, 2));
+  EXPECT_TRUE(IsPng(png));
+  EXPECT_FALSE(IsPng(png.substr(1)));
+  EXPECT_EQ(EssentialPng(png), png);
+  EXPECT_EQ(EssentialPng(WithBadTime(png, true)), png);
+  EXPECT_EQ(EssentialPng(WithBadTime(png, false)), png);
+  EXPECT_EQ(EssentialPng(png.substr(0, png.size() - 1)), "");
+}
+
 TEST(EncodeJpeg, CanBeDecoded) {
   const cv::Mat slope = RandomImage(64, 48, CV_8UC1, 2);
   const cv::Mat decoded = DecodeJpeg(EncodeJpeg(slope, 95), JpegChannels::kGray);
