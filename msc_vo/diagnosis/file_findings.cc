@@ -5,8 +5,12 @@
 #include <exception>
 #include <filesystem>
 
+#include <opencv2/imgcodecs.hpp>
+
 #include "msc_vo/datasets/sequence.h"
 #include "msc_vo/diagnosis/sequence_findings.h"
+#include "msc_vo/image_files/image_file.h"
+#include "msc_vo/odometry/loss_cause.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
 
@@ -55,11 +59,34 @@ bool AreEqual(const std::string& a, const std::string& b) {
   }
 }
 
-// Number of images that equal the one before.
+// Whether an image has no contrast, or a depth image a single value. False if it cannot be decoded.
+bool IsUniformImage(const std::string& path, bool is_depth) {
+  constexpr double kRounding = 1e-4;  // more than that of the deviation, relative
+  try {
+    const cv::Mat image = DecodeImage(ReadFile(path, kMaxImageBytes), cv::IMREAD_UNCHANGED);
+    if (image.empty()) return false;
+    cv::Scalar mean, deviation;
+    cv::meanStdDev(image, mean, deviation);
+    const double limit = is_depth ? kRounding * mean[0] : kMinImageContrast;
+    return cv::norm(deviation, cv::NORM_INF) <= limit;
+  } catch (const std::exception&) {
+    return false;  // reported by the check of the decoded images
+  }
+}
+
+// Number of images that equal the one before. Black images and those without any depth are equal in
+// a stream that goes on, and are reported by other checks.
 int CountRepetitions(const SequenceIndex& index, std::string SequenceEntry::*path) {
+  const bool is_depth = path == &SequenceEntry::depth_path;
   int count = 0;
+  bool is_run = false;  // of equal images
+  bool is_uniform = false;
   for (size_t i = 1; i < index.entries.size(); ++i) {
-    if (AreEqual(index.entries[i - 1].*path, index.entries[i].*path)) ++count;
+    const bool was_run = is_run;
+    is_run = AreEqual(index.entries[i - 1].*path, index.entries[i].*path);
+    if (!is_run) continue;
+    if (!was_run) is_uniform = IsUniformImage(index.entries[i].*path, is_depth);
+    if (!is_uniform) ++count;
   }
   return count;
 }
