@@ -36,7 +36,8 @@ DepthUnits FindDepthUnits(const RgbdDecoder& decoder);
 /// Measures a depth image in metres (CV_32FC1, 0: none).
 DepthQuality MeasureDepth(const cv::Mat& depth);
 
-/// Range of the depths (wrong units show here), ratio of valid pixels and byte order.
+/// Range of the depths (wrong units show here), ratio of valid pixels, byte order, and a value that
+/// stands for no measurement.
 void AddDepthFindings(const std::vector<DepthQuality>& images, const ByteOrder& byte_order,
                       const DepthUnits& units, Findings* findings);
 

@@ -14,7 +14,9 @@ namespace msc_vo {
 
 namespace {
 
-constexpr int kStep = 8;  // pixels between samples
+// Largest distance between samples, pixels, and samples in a row of a smaller image: with fewer,
+// the distances between sampled values next to a clipped one exceed the rounding.
+constexpr int kMaxStep = 8, kMinColumns = 80;
 // Ratio of the image that areas of a clipped value cover.
 constexpr double kMinArea = 0.01;
 // Images that end at a value this close to the extreme one do not reach it by chance only.
@@ -31,8 +33,9 @@ constexpr int kMinMoved = 4;
 // Calls visit(x, y) for every sample.
 template <typename Visitor>
 void ForEachSample(const cv::Mat& depth, const Visitor& visit) {
-  for (int y = kStep / 2; y + 1 < depth.rows; y += kStep) {
-    for (int x = kStep / 2; x + 1 < depth.cols; x += kStep) visit(x, y);
+  const int step = std::clamp(depth.cols / kMinColumns, 2, kMaxStep);
+  for (int y = step / 2; y + 1 < depth.rows; y += step) {
+    for (int x = step / 2; x + 1 < depth.cols; x += step) visit(x, y);
   }
 }
 

@@ -3,12 +3,24 @@
 
 #include "msc_vo/diagnosis/depth_quality.h"
 
+#include <utility>
+#include <vector>
+
 #include "tests/diagnosis/expected_finding.h"
 #include "tests/support/message_matchers.h"
 #include <gtest/gtest.h>
 
 namespace msc_vo {
 namespace {
+
+Findings FindingsOn(std::vector<float> depths) {
+  DepthQuality image;
+  image.valid = 1.0;
+  image.sample = std::move(depths);
+  Findings findings;
+  AddDepthFindings({image}, ByteOrder(), {5000.0, false}, &findings);
+  return findings;
+}
 
 // Findings on raw depths from 1.5 m on in steps, read with a scale.
 Findings FindingsOn(int step, double scale, bool are_floats = false) {
@@ -36,6 +48,27 @@ TEST(DepthFindings, AcceptOtherStepsAndTheRightScale) {
   }
   ExpectFinding(FindingsOn(8, 5000.0, true), Severity::kGood, "depth.scale", Names("median"),
                 "floats");
+}
+
+TEST(DepthFindings, NameAConstantThatIsNoSurface) {
+  for (const float constant : {1.5f, 2.0f, 4.0f}) {
+    for (const size_t count : {100, 10000}) {
+      std::vector<float> depths(count, constant);
+      for (int i = 0; i < 1000; ++i) depths.push_back(1.5f + 0.0025f * static_cast<float>(i));
+      ExpectFinding(FindingsOn(depths), Severity::kWarning, "depth.constant",
+                    Names("raw units", "write 0"), "constant");
+    }
+  }
+  ExpectFinding(FindingsOn(std::vector<float>(1000, 2.0f)), Severity::kWarning, "depth.constant",
+                Names("100 %", "2.000 m", "10000"), "nothing else");
+}
+
+// A wall across the viewing direction, rounded to disparities.
+TEST(DepthFindings, AcceptRoundedSurfaces) {
+  std::vector<float> depths(300, 3.992f);
+  depths.insert(depths.end(), 100, 3.7f);
+  for (int i = 0; i < 600; ++i) depths.push_back(2.0f + 0.002f * static_cast<float>(i));
+  for (const Finding& finding : FindingsOn(depths)) EXPECT_NE(finding.check, "depth.constant");
 }
 
 }  // namespace

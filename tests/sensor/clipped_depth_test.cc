@@ -45,7 +45,7 @@ class ClippedDepthTest : public ::testing::TestWithParam<SyntheticDepth> {
 TEST_P(ClippedDepthTest, IsFoundAtEitherEndInEveryUnit) {
   for (const double units : {100.0, 1000.0, 5000.0}) {
     const auto round = [units](float z) { return static_cast<float>(std::round(z * units)); };
-    for (const float end : {2.3f, 2.53f, 3.0f}) {
+    for (const float end : {2.2f, 2.3f, 2.53f, 3.0f}) {
       const DepthLimits limits = Find(Images(), [&](float z) { return round(std::min(z, end)); });
       EXPECT_EQ(limits.farthest, round(end)) << units;
       EXPECT_FALSE(limits.HasNearest()) << units;
