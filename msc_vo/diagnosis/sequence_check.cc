@@ -4,6 +4,7 @@
 #include "msc_vo/diagnosis/sequence_check.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <exception>
 #include <optional>
@@ -23,6 +24,7 @@
 #include "msc_vo/diagnosis/texture.h"
 #include "msc_vo/features/frame_builder.h"
 #include "msc_vo/geometry/erase_if.h"
+#include "msc_vo/geometry/quantile.h"
 #include "msc_vo/text/files.h"
 #include "msc_vo/text/format_text.h"
 
@@ -35,6 +37,9 @@ constexpr int kQuickImages = 4;
 // Images that decide what the depth values are, if the quick ones do not; they include those.
 constexpr int kCurveImages = 13;
 constexpr int kDeepImages = 240;
+// Depth images that are compared with the colour images before and after, and how many of these.
+constexpr int kDelayImages = 12;
+constexpr int kDelayReach = 3;
 constexpr char kCalibrationCheck[] = "calibration";
 constexpr char kByteOrderCheck[] = "depth.byte_order";
 constexpr char kScaleCheck[] = "depth.scale";
@@ -125,6 +130,41 @@ void AddDecodingFindings(const SampleMeasurements& sample, int count, Findings* 
         Error("images.decoding", FormatText("%d of %d images cannot be used", failed, count),
               "see the messages above", Measurement{static_cast<double>(failed) / count, "ratio"}));
   }
+}
+
+double MedianInterval(const SequenceIndex& index) {
+  std::vector<double> intervals;
+  for (size_t i = 1; i < index.entries.size(); ++i) {
+    intervals.push_back(index.entries[i].timestamp - index.entries[i - 1].timestamp);
+  }
+  return Median(std::move(intervals));
+}
+
+// Whether depth belongs to colour images of another time. Paired images that differ in time by
+// their stamps are left out.
+void AddDelay(const RgbdDecoder& decoder, int max_images, Findings* findings) {
+  constexpr int kNumOffsets = 2 * kDelayReach + 1;
+  const int num_centers = decoder.size() - 2 * kDelayReach;
+  const int count = std::min(max_images, num_centers);
+  const double interval = MedianInterval(decoder.index());
+  std::vector<EdgeAlignment> by_offset(std::max(count, 0) > 0 ? kNumOffsets : 0);
+  for (int k = 0; k < count; ++k) {
+    const int first = SampleIndex(k, count, num_centers);
+    try {
+      const RgbdImage center = decoder.Decode(first + kDelayReach);
+      if (2.0 * std::abs(center.depth_delay) > interval) continue;
+      std::vector<EdgeAlignment> alignments;
+      for (int i = 0; i < kNumOffsets; ++i) {
+        const bool is_center = i == kDelayReach;
+        const cv::Mat gray = is_center ? center.gray : decoder.Decode(first + i).gray;
+        alignments.push_back(AlignEdges(gray, center.depth, false));
+      }
+      for (int i = 0; i < kNumOffsets; ++i) Add(alignments[i], &by_offset[i]);
+    } catch (const std::exception&) {
+      continue;  // reported by the check of decoded images
+    }
+  }
+  AddDelayFindings(by_offset, interval, findings);
 }
 
 bool HasError(const Findings& findings, const std::string& check) {
@@ -231,6 +271,7 @@ Findings CheckSequence(const RgbdDecoder& decoder, const SequenceCheckOptions& o
   AddSampleFindings(sample, curve, calibration, &findings);
   AddClippingFindings(decoder, &findings);
   AddRegistrationFindings(sample.alignments, calibration.camera.width, &findings);
+  if (!HasError(findings, "registration.mirrored")) AddDelay(decoder, kDelayImages, &findings);
   AddTextureFindings(sample.textures, &findings);
   AddGroundTruthStampFindings(index, &findings);
   if (HoldsNoDepth(findings)) {
@@ -259,6 +300,10 @@ Findings CheckSequenceQuickly(const RgbdDecoder& decoder) {
   DecideCurve(decoder, &curve);
   AddSampleFindings(sample, curve, calibration, &findings);
   AddRegistrationFindings(sample.alignments, calibration.camera.width, &findings);
+  if (!findings.empty() && findings.back().severity == Severity::kWarning &&
+      findings.back().check == "registration.shift") {
+    AddDelay(decoder, kQuickImages, &findings);
+  }
   AddGroundTruthStampFindings(index, &findings);
   NameReference(index, &findings);
   EraseIf(&findings, [](const Finding& finding) { return finding.severity == Severity::kGood; });

@@ -20,7 +20,7 @@ struct SequenceIndex;
 struct TimedPose;
 
 /// Missing and unreadable files (names, sizes), and consecutive images whose files are equal byte
-/// for byte: the frozen stream of a camera. Decodes nothing.
+/// for byte: the frozen stream of a camera. Decodes equal images only: uniform ones do not count.
 void AddFileFindings(const SequenceIndex& index, Findings* findings);
 
 /// Rate, gaps and unit of the time stamps, and the delays between colour and depth that the stamps
@@ -39,6 +39,12 @@ void AddCameraFindings(const Calibration& calibration, const std::string& format
 /// several images. `width` is that of the images, pixels.
 void AddRegistrationFindings(const std::vector<EdgeAlignment>& images, int width,
                              Findings* findings);
+
+/// Adds a warning in place of registration.shift if the depth images belong to colour images of
+/// another time. `by_offset`: edges of depth against the colour images at the same offsets before
+/// and after, in order of time; empty: not tested. `interval`: seconds between two images.
+void AddDelayFindings(const std::vector<EdgeAlignment>& by_offset, double interval,
+                      Findings* findings);
 
 /// An error that names what the values are, if they are no depths; a warning, if an undescribed
 /// lens can look like it.
