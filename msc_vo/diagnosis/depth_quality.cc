@@ -28,7 +28,7 @@ constexpr double kMinValid = 0.2;
 constexpr double kShiftedUnits = 8000.0;  // raw units per metre of millimetres times 8
 
 // Ratio of the measurements that have the most frequent value from which on it is no measurement,
-// and its excess over the second most frequent one. Real sequences, also with depth rounded to 1
+// and its excess over the second most frequent one. Walls rendered with depth rounded to 1
 // cm, reach 0.14 with an excess of 1.2; icl_of_kt3 (rounded disparity) 0.12 with 3. See
 // docs/lab/depth.md.
 constexpr double kMaxConstantRatio = 0.05;
