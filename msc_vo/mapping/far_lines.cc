@@ -14,8 +14,8 @@ namespace {
 // Largest distance of a line from the part of its plane that has a depth, cells of DepthRanges. At
 // the end of its range, a sensor loses walls before their ends (docs/lab/planes.md).
 constexpr int kReach = 4;
-// Sensors measure nearer surfaces, metres, unless these are such as windows, of which a line may be
-// behind the plane of the wall.
+// Every sensor measures surfaces nearer than this, metres, except windows and the like, through
+// which lines behind the wall are seen.
 constexpr double kMinRange = 3.0;
 // Half the width of a line in the image, where other segments may be parts of the same line,
 // pixels.

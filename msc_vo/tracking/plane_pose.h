@@ -53,10 +53,11 @@ std::optional<PlanePose> EstimateByPlanes(const TrackerOptions& options, const F
                                           const MapSnapshot& snapshot, const ExpectedPose& expected,
                                           const std::vector<PoseFactor>& factors);
 
-/// Estimates a pose by planes that leave directions free again, with landmarks of `local` near it
-/// and the expected pose as a prior. Planes determine at least half of a pose, so that half of
-/// `min_matches` suffice. It is determined if it is certain without the prior, which would hold
-/// each frame at the one before. Returns false, and changes nothing, if too few landmarks agree.
+/// Repeats the estimate of a pose by planes that leave directions free, with the landmarks of
+/// `local` that match near it, and with the expected pose as a prior. Planes determine at least
+/// half of a pose, so that half of `min_matches` suffice. The pose is determined if it is certain
+/// without the prior, which would hold each frame at the one before. Returns false, and changes
+/// nothing, if too few landmarks agree.
 bool HoldByLandmarks(const TrackerOptions& options, const Frame& frame, const MapSnapshot& snapshot,
                      const LocalMap& local, const ExpectedPose& expected,
                      const std::vector<PoseFactor>& factors, PlanePose* pose);
